@@ -1,0 +1,128 @@
+//! The picture: named layers of numbers.
+
+use crate::scene::Background;
+use std::time::Duration;
+
+/// What a render leaves behind.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// In pixels.
+    pub width: u32,
+    /// In pixels.
+    pub height: u32,
+    /// The beauty first.
+    pub layers: Vec<Layer>,
+    /// What a display shows where the beauty is transparent; its colour is in the beauty already where it is
+    /// [`crate::scene::Shown::Always`].
+    pub background: Background,
+    /// False where the render was cancelled: some tiles are black then.
+    pub complete: bool,
+    /// What the render took.
+    pub statistics: Statistics,
+}
+
+/// Some numbers a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Empty for what a reader should show first.
+    pub name: &'static str,
+    /// What the numbers are.
+    pub channels: &'static [&'static str],
+    /// How a file keeps them.
+    pub precision: Precision,
+    /// What they are measured in, for readers.
+    pub unit: &'static str,
+    /// How a pixel's samples become one.
+    pub combine: Combine,
+    /// Row by row from the top, pixel by pixel, channel by channel.
+    pub values: Vec<f32>,
+}
+
+/// How a file keeps a layer's numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// 16 bits: light.
+    Half,
+    /// 32 bits: distances and ids.
+    Float,
+}
+
+/// How a pixel's samples become one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Combine {
+    /// Their mean (box filter).
+    Mean,
+    /// The sample nearest to the camera: a mean across an edge would invent surfaces.
+    Nearest,
+}
+
+/// `Z` where nothing is seen: far, but a number.
+pub const FAR_AWAY: f32 = 1e10;
+
+/// Linear light with premultiplied alpha.
+pub const BEAUTY: Layer = Layer {
+    name: "",
+    channels: &["R", "G", "B", "A"],
+    precision: Precision::Half,
+    unit: "linear Rec. 709, premultiplied alpha",
+    combine: Combine::Mean,
+    values: Vec::new(),
+};
+
+/// Distance along the camera's axis, [`FAR_AWAY`] where nothing is seen.
+pub const DEPTH: Layer = Layer {
+    name: "",
+    channels: &["Z"],
+    precision: Precision::Float,
+    unit: "distance along the camera's axis, scene units",
+    combine: Combine::Nearest,
+    values: Vec::new(),
+};
+
+/// What a render took: rays by kind, and time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// Rays from the camera.
+    pub camera_rays: u64,
+    /// Rays that went on behind a transparent surface.
+    pub transparent_rays: u64,
+    /// Rays toward lights.
+    pub shadow_rays: u64,
+    /// Rays off mirrors.
+    pub mirror_rays: u64,
+    /// Rays that ended in the [`crate::whitted::MAX_LAYERS`]th transparent layer.
+    pub lost_in_layers: u64,
+    /// From the first ray to the last.
+    pub time: Duration,
+}
+
+impl Statistics {
+    /// Rays of every kind.
+    pub fn rays(&self) -> u64 {
+        self.camera_rays + self.transparent_rays + self.shadow_rays + self.mirror_rays
+    }
+
+    /// The counts of both; the time stays.
+    pub fn add_counts(&mut self, other: &Statistics) {
+        self.camera_rays += other.camera_rays;
+        self.transparent_rays += other.transparent_rays;
+        self.shadow_rays += other.shadow_rays;
+        self.mirror_rays += other.mirror_rays;
+        self.lost_in_layers += other.lost_in_layers;
+    }
+}
+
+impl Film {
+    /// The layer with exactly these channels, where the film has it.
+    pub fn layer(&self, channels: &[&str]) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.channels == channels)
+    }
+
+    /// The beauty's pixels, top row first: linear red, green, blue and premultiplied alpha.
+    pub fn beauty(&self) -> impl Iterator<Item = [f32; 4]> {
+        let values = self
+            .layer(BEAUTY.channels)
+            .map_or(&[][..], |layer| &layer.values);
+        values.as_chunks::<4>().0.iter().copied()
+    }
+}

@@ -1,0 +1,37 @@
+//! The door in: from a file to an [`Asset`], and from an asset to a scene.
+
+pub mod gltf;
+pub mod obj;
+pub mod scene_file;
+
+mod asset;
+mod files;
+mod images;
+mod model;
+mod warnings;
+
+pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
+pub use model::{ExtensionFacts, Facts, Model, ModelCamera, ModelMesh, Node, Part, TextureFacts};
+pub use warnings::{Warning, Warnings};
+
+use crate::Error;
+use std::path::Path;
+
+/// Opens a model (`.gltf`, `.glb`, `.obj`) or a scene file (`.toml`), by its extension.
+///
+/// # Errors
+///
+/// The file cannot be read, is malformed, asks for what luch does not do, or has nothing to draw.
+pub fn open(path: &Path) -> Result<Asset, Error> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("toml") => scene_file::open(path),
+        Some("gltf" | "glb") => gltf::open(path).map(Asset::of_model),
+        Some("obj") => obj::open(path).map(Asset::of_model),
+        _ => Err(Error::Unsupported {
+            file: path.to_owned(),
+            what: "its name does not end in .gltf, .glb, .obj or .toml".into(),
+            way_out: "convert it to glTF, or rename it if it is one of these".into(),
+        }),
+    }
+}

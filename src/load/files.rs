@@ -1,0 +1,33 @@
+//! Reading files, the model's own and those it names.
+
+use crate::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Reads a whole regular file.
+///
+/// # Errors
+///
+/// It does not exist, is a folder, a device or a pipe, or cannot be read.
+pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    let metadata = fs::metadata(path).map_err(Error::io(path, "open"))?;
+    if !metadata.is_file() {
+        let found = if metadata.is_dir() {
+            "a folder"
+        } else {
+            "a device or a pipe"
+        };
+        return Err(Error::malformed(
+            path,
+            "",
+            format!("is {found}, expected a file"),
+        ));
+    }
+    fs::read(path).map_err(Error::io(path, "read"))
+}
+
+/// Where a file that `from` names by the relative reference `reference` lies.
+pub(super) fn beside(from: &Path, reference: &Path) -> PathBuf {
+    from.parent()
+        .map_or_else(|| reference.to_owned(), |folder| folder.join(reference))
+}

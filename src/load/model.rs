@@ -1,0 +1,152 @@
+//! A model as its file has it: one shape for glTF and OBJ, before anything is placed.
+
+use super::Warnings;
+use crate::camera::Projection;
+use crate::light::Light;
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::texture::Texture;
+use glam::DAffine3;
+use std::path::PathBuf;
+
+/// A model: meshes, what they are made of, and the tree of nodes that places them.
+///
+/// Every index is in range, and the tree is one: loaders see to both.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// Where it came from.
+    pub file: PathBuf,
+    /// Named by index. The last one is the default for parts whose file names none.
+    pub materials: Vec<Material>,
+    /// Named by index.
+    pub textures: Vec<Texture>,
+    /// The geometry of the parts, named by index.
+    pub meshes: Vec<Mesh>,
+    /// What nodes show.
+    pub shapes: Vec<ModelMesh>,
+    /// Named by index.
+    pub nodes: Vec<Node>,
+    /// The nodes at the top of what is drawn.
+    pub roots: Vec<usize>,
+    /// Named by index; each looks along -Z with +Y up in the space of its node.
+    pub cameras: Vec<ModelCamera>,
+    /// Named by index; each at the origin of its node, shining along -Z.
+    pub lights: Vec<Light>,
+    /// What `luch info` tells beside.
+    pub facts: Facts,
+    /// What was ignored or mended.
+    pub warnings: Warnings,
+    /// Every file that was read, the model's own first.
+    pub files: Vec<PathBuf>,
+}
+
+/// A mesh of a file: parts of one material each.
+#[derive(Clone, Debug, Default)]
+pub struct ModelMesh {
+    /// As in the file.
+    pub name: String,
+    /// The parts that can be drawn.
+    pub parts: Vec<Part>,
+}
+
+/// Triangles of one material.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// An index into the model's meshes.
+    pub mesh: u32,
+    /// An index into the model's materials.
+    pub material: u32,
+}
+
+/// A place in the tree.
+#[derive(Clone, Debug, Default)]
+pub struct Node {
+    /// As in the file; may be empty.
+    pub name: String,
+    /// Indices into the model's nodes.
+    pub children: Vec<usize>,
+    /// To the space of its parent.
+    pub to_parent: DAffine3,
+    /// An index into the model's shapes.
+    pub shape: Option<usize>,
+    /// An index into the model's cameras.
+    pub camera: Option<usize>,
+    /// An index into the model's lights.
+    pub light: Option<usize>,
+}
+
+/// A camera of a file, before a node places it.
+#[derive(Clone, Debug)]
+pub struct ModelCamera {
+    /// As in the file; may be empty.
+    pub name: String,
+    /// How wide it sees.
+    pub projection: Projection,
+    /// Its near plane, along its axis.
+    pub near: f32,
+    /// Its far plane; infinity where there is none.
+    pub far: f32,
+}
+
+/// What `luch info` tells of a file beside what a model holds.
+#[derive(Clone, Debug, Default)]
+pub struct Facts {
+    /// As in "glTF 2.0 (Blender 4.2)".
+    pub format: String,
+    /// Names of the file's scenes; empty strings where they have none.
+    pub scenes: Vec<String>,
+    /// How many triangles, each mesh once.
+    pub triangles: usize,
+    /// Points that are not drawn.
+    pub points: usize,
+    /// Line segments that are not drawn.
+    pub lines: usize,
+    /// Each image of the file.
+    pub textures: Vec<TextureFacts>,
+    /// Names of animations; empty strings where they have none.
+    pub animations: Vec<String>,
+    /// Each extension the file uses, with what luch does about it.
+    pub extensions: Vec<ExtensionFacts>,
+}
+
+/// An image of a file.
+#[derive(Clone, Debug)]
+pub struct TextureFacts {
+    /// A name or a path.
+    pub name: String,
+    /// Its size in pixels, where it could be read.
+    pub size: Option<(u32, u32)>,
+}
+
+/// An extension that a file uses.
+#[derive(Clone, Debug)]
+pub struct ExtensionFacts {
+    /// As in `KHR_materials_unlit`.
+    pub name: String,
+    /// Whether the file says that it makes no sense without.
+    pub required: bool,
+    /// Whether luch does what it asks.
+    pub honoured: bool,
+}
+
+impl Model {
+    /// Every node that is drawn, with its transform to the model's space: the nodes under the roots, parents before
+    /// their children.
+    pub fn placed_nodes(&self) -> Vec<(&Node, DAffine3)> {
+        let mut placed = Vec::with_capacity(self.nodes.len());
+        // A stack of its own: files have chains of nodes deeper than a thread's stack.
+        let mut open: Vec<(usize, DAffine3)> = self
+            .roots
+            .iter()
+            .rev()
+            .map(|&root| (root, DAffine3::IDENTITY))
+            .collect();
+        while let Some((index, to_model)) = open.pop() {
+            let node = &self.nodes[index];
+            let to_model = to_model * node.to_parent;
+            placed.push((node, to_model));
+            open.extend(node.children.iter().rev().map(|&child| (child, to_model)));
+        }
+        placed
+    }
+}

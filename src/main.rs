@@ -1,0 +1,2 @@
+//! luch
+fn main() {}

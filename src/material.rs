@@ -1,0 +1,185 @@
+//! What a surface is made of, as its file says it.
+
+use crate::color::Rgb;
+use crate::texture::{Checker, TextureUse};
+
+/// A material: how it answers light, and where it is there at all.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// As in the file; may be empty.
+    pub name: String,
+    /// How it answers light.
+    pub model: Model,
+    /// Light of its own.
+    pub emission: Textured<Rgb>,
+    /// Where it is there at all.
+    pub alpha: Alpha,
+    /// Bends shading normals.
+    pub normal_map: Option<NormalMap>,
+    /// Whether camera and mirror rays see it from behind, too. Shadow rays always do.
+    pub double_sided: bool,
+}
+
+/// A factor, and a texture that multiplies it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Textured<T> {
+    /// In linear light, or a plain number.
+    pub factor: T,
+    /// Which channels count depends on what is textured.
+    pub texture: Option<TextureUse>,
+}
+
+impl<T> Textured<T> {
+    /// The same everywhere.
+    pub const fn uniform(factor: T) -> Textured<T> {
+        Textured {
+            factor,
+            texture: None,
+        }
+    }
+}
+
+/// The ways a material can be described.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Model {
+    /// Diffuse, specular, shininess, reflectivity: scene files and MTL.
+    Phong(Phong),
+    /// Base colour, metalness, roughness: glTF.
+    MetallicRoughness(MetallicRoughness),
+    /// A colour that light does not change (KHR_materials_unlit).
+    Unlit {
+        /// Shown as it is.
+        color: Textured<Rgb>,
+    },
+}
+
+/// The parameters of the paper's surfaces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Phong {
+    /// `k_d`.
+    pub diffuse: Textured<Rgb>,
+    /// `k_s`.
+    pub specular: Textured<Rgb>,
+    /// The exponent of the highlight, zero or more.
+    pub shininess: f32,
+    /// The share of the mirror ray's light that comes back.
+    pub reflectivity: Rgb,
+    /// A second diffuse colour in squares; planes only.
+    pub checker: Option<Checker>,
+}
+
+/// glTF's metallic-roughness parameters (glTF 2.0, section 3.9.2).
+#[derive(Clone, Debug, PartialEq)]
+pub struct MetallicRoughness {
+    /// Albedo of what is not metal, mirror colour of what is.
+    pub base_color: Textured<Rgb>,
+    /// 0 or 1, or between where textures blend.
+    pub metallic: f32,
+    /// Perceptual roughness, 0..1.
+    pub roughness: f32,
+    /// Multiplies both: roughness in green, metalness in blue.
+    pub metallic_roughness: Option<TextureUse>,
+    /// How much a texture's red keeps ambient light away, 0..1.
+    pub occlusion: Textured<f32>,
+}
+
+/// Where a material is there at all.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alpha {
+    /// How coverage is read.
+    pub mode: AlphaMode,
+    /// The coverage, multiplied by the vertex colour's alpha.
+    pub coverage: Textured<f32>,
+    /// Where in `coverage.texture` it is.
+    pub channel: AlphaChannel,
+}
+
+impl Alpha {
+    /// There everywhere.
+    pub const OPAQUE: Alpha = Alpha {
+        mode: AlphaMode::Opaque,
+        coverage: Textured::uniform(1.0),
+        channel: AlphaChannel::Alpha,
+    };
+}
+
+/// How coverage is read (glTF 2.0, section 3.9.4).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AlphaMode {
+    /// It is not: fully there.
+    Opaque,
+    /// Fully there where coverage reaches the cutoff, elsewhere not at all.
+    Mask {
+        /// Compared with `coverage >= cutoff`.
+        cutoff: f32,
+    },
+    /// A share of the light from behind passes.
+    Blend,
+}
+
+/// Where in a texture coverage is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AlphaChannel {
+    /// In its alpha (glTF).
+    Alpha,
+    /// In its red (MTL's `map_d`, a grey picture).
+    Red,
+}
+
+/// A texture of tangent-space normals (glTF 2.0, section 3.9.3).
+#[derive(Clone, Debug, PartialEq)]
+pub struct NormalMap {
+    /// Red to the tangent, green to the bitangent, blue to the normal.
+    pub texture: TextureUse,
+    /// Multiplies red and green.
+    pub scale: f32,
+}
+
+impl Material {
+    /// A double-sided matt surface without texture.
+    pub fn matt(name: impl Into<String>, diffuse: Rgb) -> Material {
+        let phong = Phong {
+            diffuse: Textured::uniform(diffuse),
+            specular: Textured::uniform(Rgb::BLACK),
+            shininess: 32.0,
+            reflectivity: Rgb::BLACK,
+            checker: None,
+        };
+        Material {
+            name: name.into(),
+            model: Model::Phong(phong),
+            emission: Textured::uniform(Rgb::BLACK),
+            alpha: Alpha::OPAQUE,
+            normal_map: None,
+            double_sided: true,
+        }
+    }
+
+    /// Whether a ray that meets the front of this material anywhere ends there: the one bit that acceleration knows.
+    pub fn is_opaque(&self) -> bool {
+        self.alpha.mode == AlphaMode::Opaque
+    }
+
+    /// Every use of a texture.
+    pub fn textures(&self) -> impl Iterator<Item = &TextureUse> {
+        let of_model: [Option<&TextureUse>; 3] = match &self.model {
+            Model::Phong(m) => [
+                m.diffuse.texture.as_ref(),
+                m.specular.texture.as_ref(),
+                None,
+            ],
+            Model::MetallicRoughness(m) => [
+                m.base_color.texture.as_ref(),
+                m.metallic_roughness.as_ref(),
+                m.occlusion.texture.as_ref(),
+            ],
+            Model::Unlit { color } => [color.texture.as_ref(), None, None],
+        };
+        let of_all = [
+            self.emission.texture.as_ref(),
+            self.alpha.coverage.texture.as_ref(),
+            self.normal_map.as_ref().map(|map| &map.texture),
+        ];
+        of_model.into_iter().chain(of_all).flatten()
+    }
+}

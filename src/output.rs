@@ -1,0 +1,1 @@
+//! The door out: from a film to a file.

@@ -1,0 +1,240 @@
+//! The world: what there is, checked once and read-only afterwards.
+
+mod check;
+mod layout;
+mod surface;
+
+pub use check::SceneError;
+pub use layout::{InstanceSpace, PlacedInstance, Primitive};
+pub use surface::Surface;
+
+use crate::camera::Camera;
+use crate::color::Rgb;
+use crate::geometry::{Bounds, Plane, Sphere};
+use crate::light::Light;
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::texture::Texture;
+use glam::DAffine3;
+
+/// What a scene is made of, before anything is checked.
+#[derive(Clone, Debug)]
+pub struct SceneDescription {
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// What a ray that misses everything sees.
+    pub background: Background,
+    /// Constant light from everywhere.
+    pub ambient: Rgb,
+    /// Named by index.
+    pub materials: Vec<Material>,
+    /// Named by index.
+    pub textures: Vec<Texture>,
+    /// In the order in which their light is added.
+    pub lights: Vec<Light>,
+    /// Analytic spheres, world space.
+    pub spheres: Vec<Object<Sphere>>,
+    /// Analytic planes, world space.
+    pub planes: Vec<Object<Plane>>,
+    /// Named by index; one that no instance names is not seen.
+    pub meshes: Vec<Mesh>,
+    /// Where the meshes stand.
+    pub instances: Vec<Instance>,
+}
+
+impl SceneDescription {
+    /// Nothing but a camera, before black.
+    pub fn empty(camera: Camera) -> SceneDescription {
+        SceneDescription {
+            camera,
+            background: Background::default(),
+            ambient: Rgb::BLACK,
+            materials: Vec::new(),
+            textures: Vec::new(),
+            lights: Vec::new(),
+            spheres: Vec::new(),
+            planes: Vec::new(),
+            meshes: Vec::new(),
+            instances: Vec::new(),
+        }
+    }
+}
+
+/// An analytic shape of some material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object<S> {
+    /// As in the file, for layers and messages; may be empty.
+    pub name: String,
+    /// The shape.
+    pub shape: S,
+    /// An index into the scene's materials.
+    pub material: u32,
+}
+
+/// A mesh somewhere in the world. Many may share one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instance {
+    /// As in the file, for layers and messages; may be empty.
+    pub name: String,
+    /// An index into the scene's meshes.
+    pub mesh: u32,
+    /// An index into the scene's materials.
+    pub material: u32,
+    /// From the mesh's space to the world's.
+    pub to_world: DAffine3,
+}
+
+/// What a ray that misses everything sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Background {
+    /// Seen by mirror rays always, by camera rays as `shown` says.
+    pub color: Rgb,
+    /// Which pictures have it behind everything.
+    pub shown: Shown,
+}
+
+/// Which pictures have the background behind everything.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shown {
+    /// All: it is part of the picture, alpha is 1.
+    Always,
+    /// Those made for a display; an EXR, made for compositing, is transparent there. For a background that nobody
+    /// asked for.
+    #[default]
+    OnDisplay,
+    /// None: every picture is transparent there.
+    Never,
+}
+
+/// A world that can be rendered: everything finite, every index in range, every vector that must have a length has it.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    camera: Camera,
+    background: Background,
+    ambient: Rgb,
+    materials: Vec<Material>,
+    textures: Vec<Texture>,
+    lights: Vec<Light>,
+    spheres: Vec<Object<Sphere>>,
+    planes: Vec<Object<Plane>>,
+    meshes: Vec<Mesh>,
+    instances: Vec<PlacedInstance>,
+    primitive_count: u32,
+}
+
+impl Scene {
+    /// Checks a description and lays it out. Plane normals and light directions become unit length; meshes that are
+    /// not worth sharing are carried into world space (see [`InstanceSpace`]).
+    ///
+    /// # Errors
+    ///
+    /// The first thing that is wrong: a number that is not finite, a size that is not above zero, a direction without
+    /// length, an index out of range, more primitives than 32 bits can number.
+    pub fn new(mut description: SceneDescription) -> Result<Scene, SceneError> {
+        check::check(&description)?;
+        let primitive_count = layout::count_primitives(&description)?;
+        for plane in &mut description.planes {
+            plane.shape.normal = unit(plane.shape.normal);
+        }
+        description.lights.iter_mut().for_each(normalize_direction);
+        let first_triangle = (description.spheres.len() + description.planes.len()) as u32;
+        let (meshes, instances) =
+            layout::place(description.meshes, description.instances, first_triangle);
+        Ok(Scene {
+            camera: description.camera,
+            background: description.background,
+            ambient: description.ambient,
+            materials: description.materials,
+            textures: description.textures,
+            lights: description.lights,
+            spheres: description.spheres,
+            planes: description.planes,
+            meshes,
+            instances,
+            primitive_count,
+        })
+    }
+
+    /// Where the picture is taken from.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// What a ray that misses everything sees.
+    pub fn background(&self) -> Background {
+        self.background
+    }
+
+    /// Constant light from everywhere.
+    pub fn ambient(&self) -> Rgb {
+        self.ambient
+    }
+
+    /// The materials, by index.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The lights, in the order in which their light is added.
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
+    }
+
+    /// The analytic spheres: primitives 0 to their number.
+    pub fn spheres(&self) -> &[Object<Sphere>] {
+        &self.spheres
+    }
+
+    /// The analytic planes: the primitives after the spheres.
+    pub fn planes(&self) -> &[Object<Plane>] {
+        &self.planes
+    }
+
+    /// The meshes that instances name, each in the space its instances say.
+    pub fn meshes(&self) -> &[Mesh] {
+        &self.meshes
+    }
+
+    /// The placed meshes: their triangles are the primitives after the planes, instance after instance.
+    pub fn instances(&self) -> &[PlacedInstance] {
+        &self.instances
+    }
+
+    /// Spheres, planes, and the triangles of every instance.
+    pub fn primitive_count(&self) -> u32 {
+        self.primitive_count
+    }
+
+    /// The box around spheres and instances; planes have none.
+    pub fn bounds(&self) -> Bounds {
+        let spheres = self.spheres.iter().map(|sphere| sphere.shape.bounds());
+        let instances = self.instances.iter().map(|instance| match &instance.space {
+            Some(space) => space.bounds,
+            None => self.mesh(instance.mesh).bounds(),
+        });
+        spheres.chain(instances).fold(Bounds::EMPTY, Bounds::union)
+    }
+
+    /// A mesh by index: in range for the indices of a scene's own instances.
+    pub fn mesh(&self, index: u32) -> &Mesh {
+        &self.meshes[index as usize]
+    }
+
+    /// A material by index: in range for the indices of a scene's own objects.
+    pub fn material(&self, index: u32) -> &Material {
+        &self.materials[index as usize]
+    }
+}
+
+/// Unit length for what [`check`] found to have a length.
+fn unit(v: glam::Vec3) -> glam::Vec3 {
+    v.as_dvec3().normalize_or(glam::DVec3::Y).as_vec3()
+}
+
+fn normalize_direction(light: &mut Light) {
+    use crate::light::LightKind::{Directional, Point, Spot};
+    match &mut light.kind {
+        Directional { direction } | Spot { direction, .. } => *direction = unit(*direction),
+        Point { .. } => {}
+    }
+}
