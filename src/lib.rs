@@ -14,10 +14,15 @@ pub mod material;
 pub mod shade;
 pub mod texture;
 
+pub mod framing;
 pub mod mesh;
 pub mod scene;
 
+pub mod accel;
+
 pub mod film;
+pub mod render;
+pub mod whitted;
 
 pub mod load;
 pub mod output;
