@@ -53,10 +53,11 @@ pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64) -> Camera {
         (DVec3::ZERO, 1.0)
     } else {
         let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+        let reach = max.abs().max(min.abs()).max_element();
         // A single point is framed as if it were a little larger.
         (
             (min + max) * 0.5,
-            ((max - min).length() * 0.5).max(f64::MIN_POSITIVE.sqrt()),
+            ((max - min).length() * 0.5).max(1e-4 * reach).max(1e-30),
         )
     };
     let looking = Camera::looking_at(towards_viewer.as_vec3(), Vec3::ZERO, Vec3::Y, 1.0);

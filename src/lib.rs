@@ -15,6 +15,7 @@ pub mod shade;
 pub mod texture;
 
 pub mod framing;
+pub mod generate;
 pub mod mesh;
 pub mod scene;
 

@@ -5,7 +5,7 @@ use crate::ray::Ray;
 use glam::Vec3;
 
 /// How far a hit may lie outside the box of its primitive, relative to the coordinates: four times the rounding
-/// errors of the triangle test (about 16 half units in the last place, see `geometry`), and a power of two.
+/// errors of the triangle test (about 16 half units in the last place), and a power of two.
 const RELATIVE_PAD: f32 = 1.0 / 262_144.0;
 
 /// A ray, made ready for the slab test (Kay and Kajiya 1986, "Ray Tracing Complex Scenes").
