@@ -4,8 +4,8 @@ use crate::camera::Camera;
 use crate::geometry::{Bounds, Triangle};
 use glam::{DVec3, Vec3};
 
-/// The vertical field of view of a framed picture, in degrees: as far from a fish eye as from a telescope.
-const FOV_Y_DEGREES: f64 = 35.0;
+/// The vertical field of view of a framed picture, in radians (35 degrees): as far from a fish eye as from a telescope.
+pub const FOV_Y: f32 = 0.610_865_24;
 /// The share of the picture's width or height, whichever is tighter, that the model fills.
 const FILL: f64 = 0.8;
 /// A view from which less than this share of the most visible area is seen is edge-on.
@@ -43,8 +43,8 @@ pub struct Face {
 
 /// A camera that sees all of `faces`, from three quarters and slightly above, or from where their broad side is seen
 /// if that view is edge-on. Their projection fills 80 % of the width or the height of a picture of this `aspect`
-/// (width / height), and is in its middle. Without faces it looks at the origin.
-pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64) -> Camera {
+/// (width / height), and is in its middle; `fov_y` is in radians. Without faces it looks at the origin.
+pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64, fov_y: f32) -> Camera {
     let azimuth_and_elevation = broadest(faces.clone());
     let towards_viewer = unit(azimuth_and_elevation);
     let points = faces.flat_map(|face| face.triangle.0);
@@ -61,11 +61,10 @@ pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64) -> Camera {
         )
     };
     let looking = Camera::looking_at(towards_viewer.as_vec3(), Vec3::ZERO, Vec3::Y, 1.0);
-    let position = fitted_position(points, looking.basis(), center, radius, aspect);
+    let position = fitted_position(points, looking.basis(), (center, radius), (aspect, fov_y));
     // The target is the point of the axis nearest to the middle of the model.
     let axis = -towards_viewer;
     let target = position + axis * (center - position).dot(axis).max(radius * 0.01);
-    let fov_y = FOV_Y_DEGREES.to_radians() as f32;
     Camera::looking_at(position.as_vec3(), target.as_vec3(), Vec3::Y, fov_y)
 }
 
@@ -77,11 +76,10 @@ pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64) -> Camera {
 fn fitted_position(
     points: impl Iterator<Item = Vec3>,
     [u, v, w]: [DVec3; 3],
-    center: DVec3,
-    radius: f64,
-    aspect: f64,
+    (center, radius): (DVec3, f64),
+    (aspect, fov_y): (f64, f32),
 ) -> DVec3 {
-    let tan_y = libm::tan(FOV_Y_DEGREES.to_radians() / 2.0);
+    let tan_y = libm::tan(f64::from(fov_y) / 2.0);
     let (k_x, k_y) = (FILL * tan_y * aspect, FILL * tan_y);
     let mut fit_x = Fit::new(k_x);
     let mut fit_y = Fit::new(k_y);
@@ -202,7 +200,7 @@ mod tests {
     /// The least and the greatest picture position of the faces' vertices, 0..1 in both directions.
     fn projected(camera: &Camera, faces: &[Face], aspect: f64) -> (DVec3, DVec3) {
         let [u, v, w] = camera.basis();
-        let tan = libm::tan(FOV_Y_DEGREES.to_radians() / 2.0);
+        let tan = libm::tan(f64::from(FOV_Y) / 2.0);
         let position = |p: Vec3| {
             let d = p.as_dvec3() - camera.position.as_dvec3();
             let z = d.dot(w);
@@ -229,7 +227,7 @@ mod tests {
         ] {
             for aspect in [16.0 / 9.0, 0.5] {
                 let faces = box_faces(size);
-                let camera = frame(faces.iter().copied(), aspect);
+                let camera = frame(faces.iter().copied(), aspect, FOV_Y);
                 let (min, max) = projected(&camera, &faces, aspect);
                 let (filled, middle) = (max - min, (max + min) / 2.0);
                 assert!(
@@ -246,7 +244,7 @@ mod tests {
 
     #[test]
     fn a_solid_is_seen_from_three_quarters_and_above() {
-        let camera = frame(box_faces(Vec3::ONE).into_iter(), 1.5);
+        let camera = frame(box_faces(Vec3::ONE).into_iter(), 1.5, FOV_Y);
         assert!(camera.position.x > 0.0 && camera.position.y > 0.0 && camera.position.z > 0.0);
     }
 
@@ -263,7 +261,7 @@ mod tests {
         ] {
             let (e1, e2) = normal.normalize().any_orthonormal_pair();
             let faces = square([-e1 - e2, e1 - e2, e1 + e2, e2 - e1]);
-            let camera = frame(faces.iter().copied(), 1.5);
+            let camera = frame(faces.iter().copied(), 1.5, FOV_Y);
             let toward = (camera.position - camera.look_at).normalize();
             assert!(faces[0].triangle.normal().dot(toward) > 0.3, "{normal}");
         }
@@ -276,7 +274,7 @@ mod tests {
             double_sided: true,
         };
         for faces in [vec![], vec![point]] {
-            let camera = frame(faces.into_iter(), 1.0);
+            let camera = frame(faces.into_iter(), 1.0, FOV_Y);
             assert!(camera.position.is_finite() && camera.position != camera.look_at);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{Asset, CameraSource};
 use crate::Error;
-use crate::camera::{Camera, Clip};
+use crate::camera::{Camera, Clip, Fov, Projection};
 use crate::color::Rgb;
 use crate::framing::{self, Face};
 use crate::geometry::Bounds;
@@ -17,6 +17,8 @@ pub struct Viewpoint {
     pub aspect: f64,
     /// From where.
     pub camera: CameraChoice,
+    /// The vertical field of view in radians, instead of the camera's own.
+    pub fov_y: Option<f32>,
     /// The background; the file's, or a default, where it is `None`.
     pub background: Option<Background>,
 }
@@ -47,8 +49,19 @@ const MODEL_BACKGROUND: Rgb = Rgb::grey(0.2);
 /// Constant light for models without lights.
 const MODEL_AMBIENT: Rgb = Rgb::grey(0.3);
 
-/// The camera that the user, the file or the framing gives.
+/// The camera that the user, the file or the framing gives, with the field of view that the user asks for.
 pub(super) fn camera(
+    asset: &Asset,
+    viewpoint: &Viewpoint,
+    scene: &SceneDescription,
+    choices: &mut Choices,
+) -> Result<Camera, Error> {
+    let camera = chosen_camera(asset, viewpoint, scene, choices)?;
+    let asked = viewpoint.fov_y.map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
+    Ok(Camera { projection: asked.unwrap_or(camera.projection), ..camera })
+}
+
+fn chosen_camera(
     asset: &Asset,
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
@@ -69,7 +82,7 @@ pub(super) fn camera(
                 choices.lines.push(
                     "camera: none in the file; a three-quarter view, fitted to the model".into(),
                 );
-                framing::frame(faces(scene), viewpoint.aspect)
+                framing::frame(faces(scene), viewpoint.aspect, viewpoint.fov_y.unwrap_or(framing::FOV_Y))
             }))
         }
     }
