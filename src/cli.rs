@@ -1,5 +1,9 @@
 //! The command line: one file a command, and the only place that prints.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "printing is what this module is for")]
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "printing is what this module is for"
+)]
 
 mod arguments;
 mod info;
@@ -17,7 +21,7 @@ use std::process::ExitCode;
 
 /// Why a command ended without doing its work.
 struct Failure {
-    error: Box<dyn Error>,
+    error: Box<dyn Error + Send + Sync>,
     /// The process's exit code.
     code: u8,
 }
@@ -28,12 +32,18 @@ const USAGE_OR_SCENE: u8 = 1;
 const OUTPUT: u8 = 2;
 
 impl Failure {
-    fn usage_or_scene(error: impl Into<Box<dyn Error>>) -> Failure {
-        Failure { error: error.into(), code: USAGE_OR_SCENE }
+    fn usage_or_scene(error: impl Into<Box<dyn Error + Send + Sync>>) -> Failure {
+        Failure {
+            error: error.into(),
+            code: USAGE_OR_SCENE,
+        }
     }
 
-    fn output(error: impl Into<Box<dyn Error>>) -> Failure {
-        Failure { error: error.into(), code: OUTPUT }
+    fn output(error: impl Into<Box<dyn Error + Send + Sync>>) -> Failure {
+        Failure {
+            error: error.into(),
+            code: OUTPUT,
+        }
     }
 }
 
@@ -66,9 +76,9 @@ fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     match out.write_all(bytes).and_then(|()| out.flush()) {
         // Whoever reads has read enough.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::output(format!("standard output: cannot write: {error}")))
-        }
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::output(format!(
+            "standard output: cannot write: {error}"
+        ))),
         _ => Ok(()),
     }
 }
@@ -87,18 +97,27 @@ fn complain(error: &dyn Error, verbose: bool) {
 fn explain(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         let said = error.print();
-        return if said.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(OUTPUT) };
+        return if said.is_ok() {
+            ExitCode::SUCCESS
+        } else {
+            ExitCode::from(OUTPUT)
+        };
     }
     // What follows the first empty line are tips and usage; a list of what is missing belongs to the sentence.
     let text = error.to_string();
-    let mut paragraphs = text.split("\n\n").map(|p| p.split_whitespace().collect::<Vec<_>>().join(" "));
+    let mut paragraphs = text
+        .split("\n\n")
+        .map(|p| p.split_whitespace().collect::<Vec<_>>().join(" "));
     let sentence = paragraphs.next().unwrap_or_default();
-    let tip = paragraphs.find(|p| p.starts_with("tip: ")).map_or(String::new(), |tip| format!("; {tip}"));
-    let sentence = if error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-        "error: no command given".to_owned()
-    } else {
-        sentence
-    };
+    let tip = paragraphs
+        .find(|p| p.starts_with("tip: "))
+        .map_or(String::new(), |tip| format!("; {tip}"));
+    let sentence =
+        if error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+            "error: no command given".to_owned()
+        } else {
+            sentence
+        };
     eprintln!("{sentence}{tip} (see luch --help)");
     ExitCode::from(USAGE_OR_SCENE)
 }

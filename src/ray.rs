@@ -47,7 +47,8 @@ impl Ray {
         } else {
             1.0
         };
-        Ray::new(point + normal * (side * 4.0 * error), direction, 0.0, t_max)
+        // Not from 0: at the very origin of the world the error is 0, and the surface would be met at once.
+        Ray::new(point + normal * (side * 4.0 * error), direction, f32::MIN_POSITIVE, t_max)
     }
 
     /// `R(t)` (paper, eq. 6).

@@ -1,8 +1,6 @@
 //! Search: every fast path gives the bits of the oracle.
 
-mod common;
-
-use common::scenes::{self, Named};
+use crate::common::scenes::{self, Named};
 use glam::{DAffine3, DQuat, DVec3, Vec3};
 use luch::accel::{Accel, Options, Preset, linear};
 use luch::generate::Random;

@@ -32,7 +32,9 @@ pub(super) enum Command {
     /// Tell what is in a file, and what luch makes of it
     Info(InfoArguments),
     /// Print completions for a shell
-    #[command(after_help = "Example:\n  luch completions bash > ~/.local/share/bash-completion/completions/luch")]
+    #[command(
+        after_help = "Example:\n  luch completions bash > ~/.local/share/bash-completion/completions/luch"
+    )]
     Completions {
         /// Which shell
         shell: clap_complete::Shell,
@@ -165,7 +167,9 @@ pub(super) struct InfoArguments {
 
 fn display_help() -> String {
     let names = Display::ALL.map(Display::name).join(", ");
-    format!("How light becomes a PNG's colours: {names} [default: srgb for scene files, pbr-neutral for models]")
+    format!(
+        "How light becomes a PNG's colours: {names} [default: srgb for scene files, pbr-neutral for models]"
+    )
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

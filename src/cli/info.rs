@@ -70,17 +70,34 @@ pub(super) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
 
 impl Info {
     fn of(asset: &Asset) -> Result<Info, Failure> {
-        let viewpoint = Viewpoint { aspect: 1.0, camera: CameraChoice::OfFile, fov_y: None, background: None };
-        let (scene, _) = asset.scene(0.0, &viewpoint).map_err(Failure::usage_or_scene)?;
+        let viewpoint = Viewpoint {
+            aspect: 1.0,
+            camera: CameraChoice::OfFile,
+            fov_y: None,
+            background: None,
+        };
+        let (scene, _) = asset
+            .scene(0.0, &viewpoint)
+            .map_err(Failure::usage_or_scene)?;
         let bounds = scene.bounds();
         let analytic = (scene.spheres().len() + scene.planes().len()) as u64;
-        let placed = |m: &Model| m.placed_nodes().iter().filter(|(node, _)| node.light.is_some()).count();
+        let placed = |m: &Model| {
+            m.placed_nodes()
+                .iter()
+                .filter(|(node, _)| node.light.is_some())
+                .count()
+        };
         Ok(Info {
             file: asset.file.clone(),
-            models: asset.models.iter().map(|placed| ModelInfo::of(&placed.model)).collect(),
+            models: asset
+                .models
+                .iter()
+                .map(|placed| ModelInfo::of(&placed.model))
+                .collect(),
             spheres: scene.spheres().len(),
             planes: scene.planes().len(),
-            lights: asset.lights.len() + asset.models.iter().map(|m| placed(&m.model)).sum::<usize>(),
+            lights: asset.lights.len()
+                + asset.models.iter().map(|m| placed(&m.model)).sum::<usize>(),
             instances: scene.instances().len(),
             triangles_drawn: u64::from(scene.primitive_count()) - analytic,
             bounds: (!bounds.is_empty()).then(|| [bounds.min.to_array(), bounds.max.to_array()]),
@@ -97,13 +114,25 @@ impl Info {
             lines.push(format!("  spheres     {}", self.spheres));
             lines.push(format!("  planes      {}", self.planes));
         }
-        lines.push(format!("  instances   {}, {} triangles in all", self.instances, HumanCount(self.triangles_drawn)));
+        lines.push(format!(
+            "  instances   {}, {} triangles in all",
+            self.instances,
+            HumanCount(self.triangles_drawn)
+        ));
         lines.push(format!("  lights on   {}", self.lights));
         if let Some([min, max]) = self.bounds {
             let point = |p: [f32; 3]| p.map(|x| x.to_string()).join(", ");
-            lines.push(format!("  bounds      ({}) to ({})", point(min), point(max)));
+            lines.push(format!(
+                "  bounds      ({}) to ({})",
+                point(min),
+                point(max)
+            ));
         }
-        lines.extend(self.warnings.iter().map(|warning| format!("  warning     {warning}")));
+        lines.extend(
+            self.warnings
+                .iter()
+                .map(|warning| format!("  warning     {warning}")),
+        );
         lines.join("\n") + "\n"
     }
 }
@@ -111,7 +140,10 @@ impl Info {
 impl ModelInfo {
     fn of(model: &Model) -> ModelInfo {
         let facts = &model.facts;
-        let texture = |t: &load::TextureFacts| Texture { name: t.name.clone(), size: t.size };
+        let texture = |t: &load::TextureFacts| Texture {
+            name: t.name.clone(),
+            size: t.size,
+        };
         let extension = |e: &load::ExtensionFacts| Extension {
             name: e.name.clone(),
             required: e.required,
@@ -124,14 +156,31 @@ impl ModelInfo {
             format: facts.format.clone(),
             scenes: facts.scenes.clone(),
             nodes: model.nodes.len(),
-            meshes: model.shapes.iter().map(|shape| shape.name.clone()).collect(),
+            meshes: model
+                .shapes
+                .iter()
+                .map(|shape| shape.name.clone())
+                .collect(),
             triangles: facts.triangles,
             points: facts.points,
             lines: facts.lines,
-            materials: model.materials.iter().take(materials).map(|m| m.name.clone()).collect(),
+            materials: model
+                .materials
+                .iter()
+                .take(materials)
+                .map(|m| m.name.clone())
+                .collect(),
             textures: facts.textures.iter().map(texture).collect(),
-            lights: model.lights.iter().map(|light| light.name.clone()).collect(),
-            cameras: model.cameras.iter().map(|camera| camera.name.clone()).collect(),
+            lights: model
+                .lights
+                .iter()
+                .map(|light| light.name.clone())
+                .collect(),
+            cameras: model
+                .cameras
+                .iter()
+                .map(|camera| camera.name.clone())
+                .collect(),
             animations: facts.animations.clone(),
             extensions: facts.extensions.iter().map(extension).collect(),
         }
@@ -149,19 +198,40 @@ impl ModelInfo {
         say("meshes", listed(&self.meshes));
         say("triangles", HumanCount(self.triangles as u64).to_string());
         if self.points + self.lines > 0 {
-            say("not drawn", format!("{} points, {} lines", self.points, self.lines));
+            say(
+                "not drawn",
+                format!("{} points, {} lines", self.points, self.lines),
+            );
         }
         say("materials", listed(&self.materials));
-        let size = |t: &Texture| t.size.map_or("unreadable".into(), |(w, h)| format!("{w} x {h}"));
-        let textures: Vec<String> = self.textures.iter().map(|t| format!("{} ({})", t.name, size(t))).collect();
+        let size = |t: &Texture| {
+            t.size
+                .map_or("unreadable".into(), |(w, h)| format!("{w} x {h}"))
+        };
+        let textures: Vec<String> = self
+            .textures
+            .iter()
+            .map(|t| format!("{} ({})", t.name, size(t)))
+            .collect();
         say("textures", listed(&textures));
         say("lights", listed(&self.lights));
         say("cameras", listed(&self.cameras));
         say("animations", listed(&self.animations));
         for extension in &self.extensions {
-            let required = if extension.required { "required" } else { "used" };
-            let honoured = if extension.honoured { "honoured" } else { "ignored" };
-            say("extension", format!("{} ({required}, {honoured})", extension.name));
+            let required = if extension.required {
+                "required"
+            } else {
+                "used"
+            };
+            let honoured = if extension.honoured {
+                "honoured"
+            } else {
+                "ignored"
+            };
+            say(
+                "extension",
+                format!("{} ({required}, {honoured})", extension.name),
+            );
         }
         lines
     }
@@ -170,7 +240,12 @@ impl ModelInfo {
 /// How many, and the names of the first few.
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 8;
-    let named: Vec<&str> = names.iter().map(String::as_str).filter(|name| !name.is_empty()).take(SHOWN).collect();
+    let named: Vec<&str> = names
+        .iter()
+        .map(String::as_str)
+        .filter(|name| !name.is_empty())
+        .take(SHOWN)
+        .collect();
     match (names.len(), named.len()) {
         (count, 0) => count.to_string(),
         (count, shown) if count > shown => format!("{count}: {}, ...", named.join(", ")),

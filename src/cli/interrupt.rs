@@ -20,7 +20,10 @@ impl Interrupt {
         let on_signal = interrupt.clone();
         // Without a handler Ctrl-C still ends the program; only the temporary file would stay.
         let _ = ctrlc::set_handler(move || {
-            let files = on_signal.temporary.lock().unwrap_or_else(PoisonError::into_inner);
+            let files = on_signal
+                .temporary
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner);
             for file in files.iter() {
                 let _ = std::fs::remove_file(file);
             }
@@ -31,6 +34,9 @@ impl Interrupt {
 
     /// Removes `file` when the program is interrupted.
     pub(super) fn remove_on_interrupt(&self, file: &Path) {
-        self.temporary.lock().unwrap_or_else(PoisonError::into_inner).push(file.to_owned());
+        self.temporary
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push(file.to_owned());
     }
 }

@@ -17,7 +17,13 @@ pub(super) fn shown<T>(quiet: bool, progress: &Progress, work: impl FnOnce() -> 
     }
     thread::scope(|scope| {
         let (finished, wait) = channel::<()>();
-        let watcher = scope.spawn(move || if stderr().is_terminal() { bar(progress, &wait) } else { lines(progress, &wait) });
+        let watcher = scope.spawn(move || {
+            if stderr().is_terminal() {
+                bar(progress, &wait)
+            } else {
+                lines(progress, &wait)
+            }
+        });
         let result = work();
         // The watcher ends when the sender is gone.
         drop(finished);
@@ -28,7 +34,9 @@ pub(super) fn shown<T>(quiet: bool, progress: &Progress, work: impl FnOnce() -> 
 
 fn bar(progress: &Progress, wait: &Receiver<()>) {
     let bar = ProgressBar::new(1000);
-    if let Ok(style) = ProgressStyle::with_template("rendering [{bar:40}] {percent:>3}%  {eta} left") {
+    if let Ok(style) =
+        ProgressStyle::with_template("rendering [{bar:40}] {percent:>3}%  {eta} left")
+    {
         bar.set_style(style.progress_chars("=> "));
     }
     while wait.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {

@@ -23,7 +23,10 @@ const FIGURE_4_NAME: &str = "figure-4.toml";
 /// Renders what the arguments ask for.
 pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
     let threads = arguments.threads.map_or(0, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(Failure::usage_or_scene)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(Failure::usage_or_scene)?;
     pool.install(|| render_file(arguments))
 }
 
@@ -35,25 +38,58 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let asset = open(arguments)?;
     outputs.spare(&asset)?;
     let settings = settings(arguments, &asset)?;
-    let (scene, choices) = asset.scene(0.0, &viewpoint(arguments, &settings)).map_err(Failure::usage_or_scene)?;
+    let (scene, choices) = asset
+        .scene(0.0, &viewpoint(arguments, &settings))
+        .map_err(Failure::usage_or_scene)?;
     let load = start.elapsed();
 
-    let options = accel::Options { preset: arguments.bvh.into(), leaf_size: arguments.leaf_size };
+    let options = accel::Options {
+        preset: arguments.bvh.into(),
+        leaf_size: arguments.leaf_size,
+    };
     let accel = Accel::build(&scene, &options);
-    let display = arguments.display.unwrap_or(if asset.is_scene_file { Display::Srgb } else { Display::PbrNeutral });
+    let display = arguments.display.unwrap_or(if asset.is_scene_file {
+        Display::Srgb
+    } else {
+        Display::PbrNeutral
+    });
     let exposure = arguments.exposure.or(choices.exposure).unwrap_or(0.0);
-    let mut summary = Summary::new(&asset, &scene, &accel, &settings, choices, (display, exposure));
+    let mut summary = Summary::new(
+        &asset,
+        &scene,
+        &accel,
+        &settings,
+        choices,
+        (display, exposure),
+    );
     summary.announce(arguments, outputs.uses_stdout);
 
     let progress = Progress::default();
-    let film = progress::shown(arguments.quiet, &progress, || render(&scene, &accel, &settings, &progress));
+    let film = progress::shown(arguments.quiet, &progress, || {
+        render(&scene, &accel, &settings, &progress)
+    });
 
     let start = Instant::now();
     let comments = Some(command_line());
-    let bit_depth = if arguments.bit_depth == "16" { BitDepth::Sixteen } else { BitDepth::Eight };
-    summary.outputs = outputs.write(&film, &output::Options { display, exposure, bit_depth, comments })?;
+    let bit_depth = if arguments.bit_depth == "16" {
+        BitDepth::Sixteen
+    } else {
+        BitDepth::Eight
+    };
+    summary.outputs = outputs.write(
+        &film,
+        &output::Options {
+            display,
+            exposure,
+            bit_depth,
+            comments,
+        },
+    )?;
     let (build, render) = (accel.statistics().build_time, film.statistics.time);
-    summary.finish(&film.statistics, Seconds::of(load, build, render, start.elapsed()));
+    summary.finish(
+        &film.statistics,
+        Seconds::of(load, build, render, start.elapsed()),
+    );
     summary.print(arguments, outputs_to_stdout(arguments))
 }
 
@@ -69,14 +105,28 @@ fn open(arguments: &RenderArguments) -> Result<Asset, Failure> {
 /// The arguments, where they are silent the file, where that is the defaults.
 fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Failure> {
     let picture = &asset.picture;
-    let (width, height, samples) = if asset.is_scene_file { (640, 480, 1) } else { (1280, 720, 4) };
+    let (width, height, samples) = if asset.is_scene_file {
+        (640, 480, 1)
+    } else {
+        (1280, 720, 4)
+    };
     let size = arguments.size;
     Settings::new(
-        size.map(|Size { width, .. }| width).or(arguments.width).or(picture.width).unwrap_or(width),
-        size.map(|Size { height, .. }| height).or(arguments.height).or(picture.height).unwrap_or(height),
+        size.map(|Size { width, .. }| width)
+            .or(arguments.width)
+            .or(picture.width)
+            .unwrap_or(width),
+        size.map(|Size { height, .. }| height)
+            .or(arguments.height)
+            .or(picture.height)
+            .unwrap_or(height),
         arguments.samples.or(picture.samples).unwrap_or(samples),
         arguments.max_depth.or(picture.max_depth).unwrap_or(5),
-        arguments.shading.map(Into::into).or(picture.shading).unwrap_or_default(),
+        arguments
+            .shading
+            .map(Into::into)
+            .or(picture.shading)
+            .unwrap_or_default(),
     )
     .map_err(Failure::usage_or_scene)
 }
@@ -93,7 +143,9 @@ fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Viewpoint {
         aspect: f64::from(settings.width()) / f64::from(settings.height()),
         camera,
         fov_y: arguments.fov.map(f32::to_radians),
-        background: arguments.background.map(|BackgroundValue(background)| background),
+        background: arguments
+            .background
+            .map(|BackgroundValue(background)| background),
     }
 }
 
@@ -107,11 +159,24 @@ struct Outputs {
 
 impl Outputs {
     fn claim(arguments: &RenderArguments, interrupt: &Interrupt) -> Result<Outputs, Failure> {
-        let input = arguments.input.as_deref().unwrap_or(Path::new(FIGURE_4_NAME));
-        let default = [PathBuf::from(input.file_stem().unwrap_or(input.as_os_str())).with_added_extension("png")];
-        let paths = if arguments.outputs.is_empty() { &default[..] } else { &arguments.outputs };
+        let input = arguments
+            .input
+            .as_deref()
+            .unwrap_or(Path::new(FIGURE_4_NAME));
+        let default = [
+            PathBuf::from(input.file_stem().unwrap_or(input.as_os_str()))
+                .with_added_extension("png"),
+        ];
+        let paths = if arguments.outputs.is_empty() {
+            &default[..]
+        } else {
+            &arguments.outputs
+        };
         if let Some(twice) = (1..paths.len()).find(|&i| paths[..i].contains(&paths[i])) {
-            return Err(Failure::usage_or_scene(format!("{} is given twice as an output", paths[twice].display())));
+            return Err(Failure::usage_or_scene(format!(
+                "{} is given twice as an output",
+                paths[twice].display()
+            )));
         }
         let mut files = Vec::new();
         for path in paths.iter().filter(|path| !is_stdout(path)) {
@@ -125,19 +190,32 @@ impl Outputs {
         };
         let uses_stdout = outputs_to_stdout(arguments);
         if uses_stdout && arguments.json {
-            return Err(Failure::usage_or_scene("-o - and --json both want standard output; give the picture a name"));
+            return Err(Failure::usage_or_scene(
+                "-o - and --json both want standard output; give the picture a name",
+            ));
         }
-        Ok(Outputs { files, format, uses_stdout })
+        Ok(Outputs {
+            files,
+            format,
+            uses_stdout,
+        })
     }
 
     /// Refuses to overwrite what was read.
     fn spare(&self, asset: &Asset) -> Result<(), Failure> {
-        let read: Vec<PathBuf> = asset.files.iter().filter_map(|file| fs::canonicalize(file).ok()).collect();
+        let read: Vec<PathBuf> = asset
+            .files
+            .iter()
+            .filter_map(|file| fs::canonicalize(file).ok())
+            .collect();
         let overwritten = self.files.iter().find(|output| {
             fs::canonicalize(output.path()).is_ok_and(|output| read.contains(&output))
         });
         overwritten.map_or(Ok(()), |output| {
-            let problem = format!("{}: was read for this picture; choose another output", output.path().display());
+            let problem = format!(
+                "{}: was read for this picture; choose another output",
+                output.path().display()
+            );
             Err(Failure::usage_or_scene(problem))
         })
     }
@@ -153,7 +231,8 @@ impl Outputs {
         if self.uses_stdout {
             let mut bytes = Vec::new();
             let name = Path::new("standard output");
-            output::encode(film, self.format, options, name, &mut bytes).map_err(Failure::output)?;
+            output::encode(film, self.format, options, name, &mut bytes)
+                .map_err(Failure::output)?;
             print_bytes(&bytes)?;
         }
         Ok(written)
@@ -170,6 +249,11 @@ fn outputs_to_stdout(arguments: &RenderArguments) -> bool {
 
 /// The command as it was given, for the picture's comments.
 fn command_line() -> String {
-    let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
-    std::iter::once("luch".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+    let words = std::env::args_os()
+        .skip(1)
+        .map(|word| word.to_string_lossy().into_owned());
+    std::iter::once("luch".to_owned())
+        .chain(words)
+        .collect::<Vec<_>>()
+        .join(" ")
 }

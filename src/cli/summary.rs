@@ -71,9 +71,20 @@ pub(super) struct Seconds {
 }
 
 impl Seconds {
-    pub(super) fn of(load: Duration, build: Duration, render: Duration, write: Duration) -> Seconds {
-        let [load, build, render, write] = [load, build, render, write].map(|phase| phase.as_secs_f64());
-        Seconds { load, build, render, write }
+    pub(super) fn of(
+        load: Duration,
+        build: Duration,
+        render: Duration,
+        write: Duration,
+    ) -> Seconds {
+        let [load, build, render, write] =
+            [load, build, render, write].map(|phase| phase.as_secs_f64());
+        Seconds {
+            load,
+            build,
+            render,
+            write,
+        }
     }
 }
 
@@ -127,9 +138,13 @@ impl Summary {
             eprintln!("warning: {warning}");
         }
         let mut text = String::new();
-        self.choices.iter().for_each(|line| text += &format!("{line}\n"));
+        self.choices
+            .iter()
+            .for_each(|line| text += &format!("{line}\n"));
         if arguments.verbose {
-            self.files_read.iter().for_each(|file| text += &format!("read {}\n", file.display()));
+            self.files_read
+                .iter()
+                .for_each(|file| text += &format!("read {}\n", file.display()));
         }
         if !arguments.json {
             // Nobody who closed the pipe wants to know.
@@ -142,7 +157,9 @@ impl Summary {
         if statistics.lost_in_layers > 0 {
             let lost = HumanCount(statistics.lost_in_layers);
             let most = luch::whitted::MAX_LAYERS;
-            self.warnings.push(format!("{lost} rays ended behind {most} transparent layers; what lies behind is missing"));
+            self.warnings.push(format!(
+                "{lost} rays ended behind {most} transparent layers; what lies behind is missing"
+            ));
         }
         let total = statistics.rays();
         self.rays = Rays {
@@ -157,7 +174,11 @@ impl Summary {
     }
 
     /// Prints it as the arguments ask.
-    pub(super) fn print(&self, arguments: &RenderArguments, uses_stdout: bool) -> Result<(), Failure> {
+    pub(super) fn print(
+        &self,
+        arguments: &RenderArguments,
+        uses_stdout: bool,
+    ) -> Result<(), Failure> {
         if arguments.json {
             let json = serde_json::to_string_pretty(self).map_err(Failure::output)?;
             return print_bytes(format!("{json}\n").as_bytes());
@@ -166,7 +187,10 @@ impl Summary {
             return Ok(());
         }
         if self.rays.transparent > 0
-            && let Some(lost) = self.warnings.last().filter(|warning| warning.contains("transparent layers"))
+            && let Some(lost) = self
+                .warnings
+                .last()
+                .filter(|warning| warning.contains("transparent layers"))
         {
             eprintln!("warning: {lost}");
         }
@@ -174,7 +198,13 @@ impl Summary {
     }
 
     fn in_words(&self, verbose: bool) -> String {
-        let Summary { scene, bvh, rays, seconds, .. } = self;
+        let Summary {
+            scene,
+            bvh,
+            rays,
+            seconds,
+            ..
+        } = self;
         let count = |n: usize| HumanCount(n as u64);
         let mut text = String::new();
         let mut line = |what: std::fmt::Arguments| {
@@ -183,11 +213,24 @@ impl Summary {
         };
         let mut things = vec![format!("{} triangles", HumanCount(scene.triangles))];
         if scene.spheres + scene.planes > 0 {
-            things.push(format!("{} spheres, {} planes", count(scene.spheres), count(scene.planes)));
+            things.push(format!(
+                "{} spheres, {} planes",
+                count(scene.spheres),
+                count(scene.planes)
+            ));
         }
-        things.push(format!("{} nodes, {} with their primitives", count(bvh.nodes), HumanBytes(bvh.bytes as u64)));
+        things.push(format!(
+            "{} nodes, {} with their primitives",
+            count(bvh.nodes),
+            HumanBytes(bvh.bytes as u64)
+        ));
         if verbose {
-            things.push(format!("{} leaves, depth {}, SAH cost {:.1}", count(bvh.leaves), bvh.depth, bvh.sah_cost));
+            things.push(format!(
+                "{} leaves, depth {}, SAH cost {:.1}",
+                count(bvh.leaves),
+                bvh.depth,
+                bvh.sah_cost
+            ));
         }
         line(format_args!("{}", things.join(", ")));
         let kinds = [
@@ -196,11 +239,24 @@ impl Summary {
             (rays.shadow, "shadow"),
             (rays.mirror, "mirror"),
         ];
-        let kinds = kinds.iter().filter(|(n, _)| *n > 0).map(|(n, kind)| format!("{} {kind}", HumanCount(*n)));
+        let kinds = kinds
+            .iter()
+            .filter(|(n, _)| *n > 0)
+            .map(|(n, kind)| format!("{} {kind}", HumanCount(*n)));
         let kinds = kinds.collect::<Vec<_>>().join(", ");
-        line(format_args!("rays: {kinds}; {:.1} Mrays/s", rays.millions_per_second));
-        let Seconds { load, build, render, write } = seconds;
-        line(format_args!("load {load:.2} s, build {build:.2} s, render {render:.2} s, write {write:.2} s"));
+        line(format_args!(
+            "rays: {kinds}; {:.1} Mrays/s",
+            rays.millions_per_second
+        ));
+        let Seconds {
+            load,
+            build,
+            render,
+            write,
+        } = seconds;
+        line(format_args!(
+            "load {load:.2} s, build {build:.2} s, render {render:.2} s, write {write:.2} s"
+        ));
         for output in &self.outputs {
             line(format_args!("wrote {}", output.display()));
         }

@@ -57,8 +57,13 @@ pub(super) fn camera(
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
     let camera = chosen_camera(asset, viewpoint, scene, choices)?;
-    let asked = viewpoint.fov_y.map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
-    Ok(Camera { projection: asked.unwrap_or(camera.projection), ..camera })
+    let asked = viewpoint
+        .fov_y
+        .map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
+    Ok(Camera {
+        projection: asked.unwrap_or(camera.projection),
+        ..camera
+    })
 }
 
 fn chosen_camera(
@@ -82,7 +87,11 @@ fn chosen_camera(
                 choices.lines.push(
                     "camera: none in the file; a three-quarter view, fitted to the model".into(),
                 );
-                framing::frame(faces(scene), viewpoint.aspect, viewpoint.fov_y.unwrap_or(framing::FOV_Y))
+                framing::frame(
+                    faces(scene),
+                    viewpoint.aspect,
+                    viewpoint.fov_y.unwrap_or(framing::FOV_Y),
+                )
             }))
         }
     }
