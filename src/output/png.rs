@@ -8,6 +8,7 @@ use crate::film::{BEAUTY, Film};
 use crate::scene::{Background, Shown};
 use std::io::{self, Write};
 
+<<<<<<< HEAD
 /// Writes the beauty: with straight alpha where the background is never shown, else without alpha and with the background
 /// behind everything.
 pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::Result<()> {
@@ -25,6 +26,19 @@ fn unwrapped(error: io::Error) -> io::Error {
 
 fn write_chunks(film: &Film, options: &Options, out: &mut dyn Write) -> io::Result<()> {
     let mut encoder = png::Encoder::new(out, film.width, film.height);
+=======
+/// Writes the beauty: with straight alpha where the background is never shown, else without alpha and with the
+/// background behind everything.
+pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::Result<()> {
+    // In memory first: crate `png` makes a sentence of what `out` says, and a closed pipe should be seen as one.
+    out.write_all(&encoded(film, options)?)?;
+    out.flush()
+}
+
+fn encoded(film: &Film, options: &Options) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, film.width, film.height);
+>>>>>>> out
     encoder.set_color(match film.background.shown {
         Shown::Never => png::ColorType::Rgba,
         Shown::Always | Shown::OnDisplay => png::ColorType::Rgb,
@@ -41,7 +55,11 @@ fn write_chunks(film: &Film, options: &Options, out: &mut dyn Write) -> io::Resu
     }
     lines.finish()?;
     writer.finish()?;
+<<<<<<< HEAD
     Ok(())
+=======
+    Ok(bytes)
+>>>>>>> out
 }
 
 /// The bytes of row `y`.

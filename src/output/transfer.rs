@@ -8,6 +8,14 @@ use std::sync::LazyLock;
 static LEAST_LIGHT: LazyLock<[f32; 255]> =
     LazyLock::new(|| std::array::from_fn(|before| least_light_of(before as f32 + 1.0)));
 
+/// The code of the darkest of all lights that share their upper 16 bits, from black to white. The others have it too, or
+/// the next: they are at most 1/128 brighter, and no code spans less than 1/112.
+static FIRST_CODE: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let darkest = (0..=1.0f32.to_bits() >> 16).map(|upper| f32::from_bits(upper << 16));
+    let code = |light| LEAST_LIGHT.partition_point(|&least| least <= light) as u8;
+    darkest.map(code).collect()
+});
+
 /// Found by halving: positive numbers stand in the order of their bits.
 fn least_light_of(code: f32) -> f32 {
     let (mut below, mut reaches) = (0.0f32.to_bits(), 1.0f32.to_bits());
@@ -28,7 +36,11 @@ fn rounded_code(light: f32) -> f32 {
 
 /// The nearest 8-bit sRGB code of linear light in 0..1; what is no number is black.
 pub(super) fn srgb_code_8(light: f32) -> u8 {
-    LEAST_LIGHT.partition_point(|&least| least <= light) as u8
+    let Some(&first) = FIRST_CODE.get((light.to_bits() >> 16) as usize) else {
+        return 0;
+    };
+    let next = LEAST_LIGHT.get(usize::from(first));
+    first + u8::from(next.is_some_and(|&least| least <= light))
 }
 
 /// The nearest 16-bit sRGB code of linear light in 0..1; what is no number is black.
