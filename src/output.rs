@@ -80,11 +80,7 @@ pub fn encode(
     name: &Path,
     out: &mut dyn Write,
 ) -> Result<(), Error> {
-<<<<<<< HEAD
-    check(film).map_err(|problem| Error::malformed(name, "the film", problem))?;
-=======
     check(film).map_err(|problem| Error::malformed(name, "", problem))?;
->>>>>>> out
     match format {
         Format::Png => png::write(film, options, out),
         Format::Exr => exr::write(film, options.comments.as_deref(), out),
@@ -101,30 +97,18 @@ fn check(film: &Film) -> Result<(), String> {
     let sides = 1..=MAX_SIDE;
     if !sides.contains(&width) || !sides.contains(&height) {
         return Err(format!(
-<<<<<<< HEAD
-            "is {width} x {height} pixels, expected 1 to {MAX_SIDE} each way"
-        ));
-    }
-    if film.layer(BEAUTY.channels).is_none() {
-        return Err("has no beauty, expected a layer R, G, B, A".into());
-=======
             "the film is {width} x {height} pixels, expected 1 to {MAX_SIDE} each way"
         ));
     }
     if film.layer(BEAUTY.channels).is_none() {
         return Err("the film has no beauty, expected a layer R, G, B, A".into());
->>>>>>> out
     }
     for layer in &film.layers {
         let expected = u64::from(width) * u64::from(height) * layer.channels.len() as u64;
         let found = layer.values.len() as u64;
         if found != expected {
             return Err(format!(
-<<<<<<< HEAD
-                "has {found} values in its layer {:?}, expected {expected}",
-=======
                 "the film has {found} values in its layer {:?}, expected {expected}",
->>>>>>> out
                 layer.channels
             ));
         }

@@ -8,25 +8,6 @@ use crate::film::{BEAUTY, Film};
 use crate::scene::{Background, Shown};
 use std::io::{self, Write};
 
-<<<<<<< HEAD
-/// Writes the beauty: with straight alpha where the background is never shown, else without alpha and with the background
-/// behind everything.
-pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::Result<()> {
-    write_chunks(film, options, out).map_err(unwrapped)
-}
-
-/// The system's own words where crate `png` only wraps them: a closed pipe should be seen as one.
-fn unwrapped(error: io::Error) -> io::Error {
-    match error.downcast() {
-        Ok(png::EncodingError::IoError(inner)) => inner,
-        Ok(other) => io::Error::other(other),
-        Err(error) => error,
-    }
-}
-
-fn write_chunks(film: &Film, options: &Options, out: &mut dyn Write) -> io::Result<()> {
-    let mut encoder = png::Encoder::new(out, film.width, film.height);
-=======
 /// Writes the beauty: with straight alpha where the background is never shown, else without alpha and with the
 /// background behind everything.
 pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::Result<()> {
@@ -38,7 +19,6 @@ pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::
 fn encoded(film: &Film, options: &Options) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, film.width, film.height);
->>>>>>> out
     encoder.set_color(match film.background.shown {
         Shown::Never => png::ColorType::Rgba,
         Shown::Always | Shown::OnDisplay => png::ColorType::Rgb,
@@ -55,11 +35,7 @@ fn encoded(film: &Film, options: &Options) -> Result<Vec<u8>, png::EncodingError
     }
     lines.finish()?;
     writer.finish()?;
-<<<<<<< HEAD
-    Ok(())
-=======
     Ok(bytes)
->>>>>>> out
 }
 
 /// The bytes of row `y`.
