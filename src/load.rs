@@ -8,6 +8,7 @@ mod asset;
 mod files;
 mod images;
 mod model;
+mod tangents;
 mod viewpoint;
 mod warnings;
 

@@ -48,7 +48,12 @@ impl Ray {
             1.0
         };
         // Not from 0: at the very origin of the world the error is 0, and the surface would be met at once.
-        Ray::new(point + normal * (side * 2.0 * error), direction, f32::MIN_POSITIVE, t_max)
+        Ray::new(
+            point + normal * (side * 2.0 * error),
+            direction,
+            f32::MIN_POSITIVE,
+            t_max,
+        )
     }
 
     /// `R(t)` (paper, eq. 6).

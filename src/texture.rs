@@ -184,12 +184,9 @@ impl Checker {
     /// aligned with the normal (the earlier of equals), in x, y, z order, projected onto the plane.
     pub fn covers(&self, plane: &Plane, position: DVec3) -> bool {
         let [e1, e2] = in_plane_axes(plane.normal);
-        let p = position - plane.point;
-        let (a, b) = (
-            libm::floorf(p.dot(e1) / self.size),
-            libm::floorf(p.dot(e2) / self.size),
-        );
-        (a + b).rem_euclid(2.0) == 1.0
+        let p = position - plane.point.as_dvec3();
+        let cell = |axis: DVec3| libm::floor(p.dot(axis) / f64::from(self.size));
+        (cell(e1) + cell(e2)).rem_euclid(2.0) == 1.0
     }
 }
 

@@ -1,10 +1,7 @@
 //! Scene files: every key, every default, and every error with the words a person reads.
 
-#[path = "load_scene_file/wrong_files.rs"]
 mod wrong_files;
-#[path = "load_scene_file/wrong_keys.rs"]
 mod wrong_keys;
-#[path = "load_scene_file/wrong_values.rs"]
 mod wrong_values;
 
 use glam::Vec3;

@@ -4,4 +4,5 @@ mod accel;
 mod analytic;
 mod common;
 mod invariance;
+mod load_scene_file;
 mod output;

@@ -38,7 +38,11 @@ impl Plane {
     pub fn surface_point(&self, ray: &Ray) -> SurfacePoint {
         let position = self.double_position(ray).as_vec3();
         let error = error_bound(position.abs().max_element());
-        SurfacePoint { position, error, normal: self.normal }
+        SurfacePoint {
+            position,
+            error,
+            normal: self.normal,
+        }
     }
 }
 

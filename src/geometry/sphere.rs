@@ -39,7 +39,9 @@ impl Sphere {
         let e = (distance - radius) * (distance + radius);
         let q = half_b + quarter_discriminant.sqrt().copysign(half_b);
         let (t0, t1) = if q == 0.0 { (0.0, 0.0) } else { (e / q, q / a) };
-        [t0.min(t1) as f32, t0.max(t1) as f32].into_iter().find(|&t| ray.admits(t, primitive))
+        [t0.min(t1) as f32, t0.max(t1) as f32]
+            .into_iter()
+            .find(|&t| ray.admits(t, primitive))
     }
 
     /// The point at `t` along `ray`, moved along its radius back onto the sphere.
@@ -49,7 +51,11 @@ impl Sphere {
         let normal = (p - center).normalize_or(DVec3::Y);
         let position = (center + normal * f64::from(self.radius)).as_vec3();
         let error = error_bound(position.abs().max_element());
-        SurfacePoint { position, error, normal: normal.as_vec3() }
+        SurfacePoint {
+            position,
+            error,
+            normal: normal.as_vec3(),
+        }
     }
 
     /// The smallest box around the sphere.

@@ -20,7 +20,6 @@ mod meshes;
 mod nodes;
 mod primitive_modes;
 mod primitives;
-mod tangents;
 mod textures;
 mod uri;
 

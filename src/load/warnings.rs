@@ -1,5 +1,11 @@
 //! What a file asked for and did not get: data, which the command line prints.
 
+/// More kinds than these are counted as one, so that a hostile file's do not take all time and memory.
+const MOST_KINDS: usize = 200;
+
+/// Stands for the kinds after those.
+const UNLISTED: &str = "warnings of further kinds, which are not listed";
+
 /// Something harmless that was ignored or mended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
@@ -22,8 +28,10 @@ impl Warnings {
     /// Notes that `message` happened `count` times; nothing where that is zero.
     pub fn add_times(&mut self, message: impl Into<String>, count: usize) {
         let message = message.into();
+        let is_full = self.0.len() >= MOST_KINDS;
         match self.0.iter_mut().find(|known| known.message == message) {
-            Some(known) => known.count += count,
+            Some(known) => known.count = known.count.saturating_add(count),
+            None if is_full && message != UNLISTED => self.add_times(UNLISTED, count),
             None if count > 0 => self.0.push(Warning { message, count }),
             None => {}
         }
@@ -64,5 +72,14 @@ mod tests {
             .for_each(|message| warnings.add(message));
         let said: Vec<String> = warnings.iter().map(ToString::to_string).collect();
         assert_eq!(said, ["a (2 times)", "b"]);
+    }
+
+    #[test]
+    fn kinds_without_end_are_counted_as_one() {
+        let mut warnings = Warnings::default();
+        (0..10_000).for_each(|kind| warnings.add(format!("kind {kind}")));
+        assert_eq!(warnings.iter().count(), MOST_KINDS + 1);
+        let counted: usize = warnings.iter().map(|warning| warning.count).sum();
+        assert_eq!(counted, 10_000);
     }
 }

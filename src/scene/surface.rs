@@ -80,7 +80,10 @@ impl Scene {
             }),
             Primitive::Plane(plane),
         ) = (&material.model, primitive)
-            && checker.covers(&self.planes[plane].shape, self.planes[plane].shape.double_position(ray))
+            && checker.covers(
+                &self.planes[plane].shape,
+                self.planes[plane].shape.double_position(ray),
+            )
         {
             (reflectance.diffuse, reflectance.ambient) = (checker.color, checker.color);
         }

@@ -1,6 +1,6 @@
 //! EXR, read back.
 
-use crate::{encoded, film};
+use super::{encoded, film};
 use exr::prelude::{AttributeValue, FlatSamples, ReadChannels, ReadLayers, Text, f16, read};
 use luch::film::{FAR_AWAY, Film};
 use luch::output::{Format, Options};

@@ -1,6 +1,6 @@
 //! PNG, read back.
 
-use crate::{encoded, film};
+use super::{encoded, film};
 use image::{DynamicImage, ImageFormat};
 use luch::film::Film;
 use luch::output::{BitDepth, Display, Format, Options};

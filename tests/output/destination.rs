@@ -1,6 +1,6 @@
 //! Files that appear whole or not at all.
 
-use crate::{encoded, film};
+use super::{encoded, film};
 use luch::output::{Destination, Format, Options};
 use luch::scene::Shown;
 use std::fs;

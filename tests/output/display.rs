@@ -1,7 +1,7 @@
 //! The display transforms, against numbers from their sources.
 
-use crate::as_png::png;
-use crate::film;
+use super::as_png::png;
+use super::film;
 use luch::output::{Display, Options};
 use luch::scene::Shown;
 

@@ -1,0 +1,219 @@
+//! From MTL's materials to luch's.
+//!
+//! Colours are linear, as every loader of ours has factors; textures are sRGB. `illum` chooses:
+//!
+//! - 0: a colour that light does not change.
+//! - 1: diffuse alone.
+//! - 2, or none: diffuse and highlight.
+//! - 3 to 9: also a mirror, `Ks` of whose light comes back (without Fresnel's law, and nothing refracts).
+//! - 10, shadows on what is not there: as 2.
+//!
+//! `d` counts before `Tr`, which is `1 - d`. A lone `Tr 1`, which would hide everything, comes from writers who mean
+//! opaque by it.
+
+use super::mtl::MtlMaterial;
+use super::text::shown;
+use super::textures::Textures;
+use crate::color::Rgb;
+use crate::material::{Alpha, AlphaMode, Material, Model, Phong, Textured};
+
+/// The diffuse colour of what has none.
+const GREY: Rgb = Rgb::grey(0.8);
+
+/// The exponent of a highlight whose file gives none.
+const SHININESS: f32 = 32.0;
+
+/// The grey of parts without a material.
+pub(super) fn default_material() -> Material {
+    Material::matt("", GREY)
+}
+
+/// A material with its textures, or, where they are missing, without.
+pub(super) fn material(mtl: &MtlMaterial, textures: &mut Textures) -> Material {
+    let diffuse_map = textures.color(mtl.diffuse_map.as_ref());
+    let diffuse = Textured {
+        factor: factor(
+            mtl,
+            mtl.diffuse,
+            diffuse_map.is_some(),
+            "Kd",
+            GREY,
+            textures,
+        ),
+        texture: diffuse_map,
+    };
+    let emission_map = textures.color(mtl.emission_map.as_ref());
+    let emission = Textured {
+        factor: factor(
+            mtl,
+            mtl.emission,
+            emission_map.is_some(),
+            "Ke",
+            Rgb::BLACK,
+            textures,
+        ),
+        texture: emission_map,
+    };
+    let illumination = mtl.illumination.unwrap_or(2);
+    let model = match illumination {
+        0 => Model::Unlit { color: diffuse },
+        1 => Model::Phong(phong(diffuse, Textured::uniform(Rgb::BLACK), 0.0)),
+        _ => {
+            let texture = textures.color(mtl.specular_map.as_ref());
+            let absent = if texture.is_some() {
+                Rgb::WHITE
+            } else {
+                Rgb::BLACK
+            };
+            let factor = mtl.specular.unwrap_or(absent);
+            let specular = Textured { factor, texture };
+            let mut phong = phong(diffuse, specular, mtl.shininess.unwrap_or(SHININESS));
+            if (3..=9).contains(&illumination) {
+                phong.reflectivity = factor.map(|share| share.min(1.0));
+            }
+            Model::Phong(phong)
+        }
+    };
+    Material {
+        name: mtl.name.clone(),
+        model,
+        emission,
+        alpha: alpha(mtl, textures),
+        normal_map: textures.normals(mtl.normal_map.as_ref(), mtl.bump_map.as_ref()),
+        double_sided: true,
+    }
+}
+
+fn phong(diffuse: Textured<Rgb>, specular: Textured<Rgb>, shininess: f32) -> Phong {
+    Phong {
+        diffuse,
+        specular,
+        shininess,
+        reflectivity: Rgb::BLACK,
+        checker: None,
+    }
+}
+
+/// What multiplies a texture: writers leave black there and mean the texture.
+fn factor(
+    mtl: &MtlMaterial,
+    given: Option<Rgb>,
+    has_texture: bool,
+    statement: &str,
+    otherwise: Rgb,
+    textures: &mut Textures,
+) -> Rgb {
+    match given {
+        Some(Rgb::BLACK) if has_texture => {
+            let name = shown(mtl.name.as_bytes());
+            textures.warnings.add(format!(
+                "material \"{name}\": {statement} 0 0 0 would blacken map_{statement} and counts as 1 1 1"
+            ));
+            Rgb::WHITE
+        }
+        Some(given) => given,
+        None if has_texture => Rgb::WHITE,
+        None => otherwise,
+    }
+}
+
+fn alpha(mtl: &MtlMaterial, textures: &mut Textures) -> Alpha {
+    let factor = match (mtl.dissolve, mtl.transparency) {
+        (Some(dissolve), _) => dissolve,
+        (None, Some(1.0)) => {
+            let name = shown(mtl.name.as_bytes());
+            textures.warnings.add(format!(
+                "material \"{name}\": Tr 1 would hide it and is taken as opaque; write d 0 to hide it"
+            ));
+            1.0
+        }
+        (None, transparency) => 1.0 - transparency.unwrap_or(0.0),
+    };
+    match textures.coverage(mtl.dissolve_map.as_ref()) {
+        None if factor == 1.0 => Alpha::OPAQUE,
+        None => Alpha {
+            mode: AlphaMode::Blend,
+            coverage: Textured::uniform(factor),
+            ..Alpha::OPAQUE
+        },
+        Some((texture, channel)) => Alpha {
+            mode: AlphaMode::Blend,
+            coverage: Textured {
+                factor,
+                texture: Some(texture),
+            },
+            channel,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::Warnings;
+    use crate::load::obj::mtl;
+
+    fn made(statements: &str) -> (Material, usize) {
+        let text = format!("newmtl a\n{statements}");
+        let mtl = mtl::read(text.as_bytes(), "a.mtl", &mut Warnings::default());
+        let mut textures = Textures::default();
+        let made = material(&mtl[0], &mut textures);
+        (made, textures.warnings.iter().count())
+    }
+
+    fn phong_of(statements: &str) -> Phong {
+        match made(statements).0.model {
+            Model::Phong(phong) => phong,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn illum_chooses_what_light_does() {
+        let all = "Kd .1 .2 .3\nKs .4 .5 2\nNs 7\n";
+        let unlit = made(&format!("{all}illum 0")).0.model;
+        let expected = Textured::uniform(Rgb::new(0.1, 0.2, 0.3));
+        assert_eq!(unlit, Model::Unlit { color: expected });
+        let diffuse = phong_of(&format!("{all}illum 1"));
+        assert_eq!(diffuse.specular.factor, Rgb::BLACK);
+        for illum in ["", "illum 2", "illum 10"] {
+            let shiny = phong_of(&format!("{all}{illum}"));
+            assert_eq!(shiny.specular.factor, Rgb::new(0.4, 0.5, 2.0));
+            assert_eq!((shiny.shininess, shiny.reflectivity), (7.0, Rgb::BLACK));
+        }
+        for illum in 3..=9 {
+            let mirror = phong_of(&format!("{all}illum {illum}"));
+            assert_eq!(mirror.reflectivity, Rgb::new(0.4, 0.5, 1.0));
+        }
+    }
+
+    #[test]
+    fn d_counts_before_tr() {
+        let blend = |factor| Alpha {
+            mode: AlphaMode::Blend,
+            coverage: Textured::uniform(factor),
+            ..Alpha::OPAQUE
+        };
+        for (statements, alpha, warnings) in [
+            ("", Alpha::OPAQUE, 0),
+            ("d 1\nTr 1", Alpha::OPAQUE, 0),
+            ("d .25\nTr .5", blend(0.25), 0),
+            ("Tr .25", blend(0.75), 0),
+            ("Tr 0", Alpha::OPAQUE, 0),
+            ("Tr 1", Alpha::OPAQUE, 1),
+            ("d 0", blend(0.0), 0),
+        ] {
+            let (material, told) = made(statements);
+            assert_eq!((material.alpha, told), (alpha, warnings), "{statements}");
+        }
+    }
+
+    #[test]
+    fn a_missing_texture_leaves_the_factor() {
+        let (material, warnings) = made("Kd 0 0 0\nmap_Kd gone.png\nmap_d gone.png\nbump gone.png");
+        assert_eq!(material.textures().count(), 0);
+        assert_eq!(material.alpha, Alpha::OPAQUE);
+        assert_eq!(phong_of("map_Kd gone.png").diffuse.factor, GREY);
+        assert_eq!(warnings, 1);
+    }
+}

@@ -1,0 +1,272 @@
+//! MTL, line by line, as the file says it. A wrong line costs that line alone.
+
+use super::map::Map;
+use super::text::{Lines, Words, name, number, shown};
+use crate::color::Rgb;
+use crate::load::Warnings;
+
+/// A material as its file says it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct MtlMaterial {
+    pub(super) name: String,
+    /// `Kd`, zero or more.
+    pub(super) diffuse: Option<Rgb>,
+    /// `Ks`, zero or more.
+    pub(super) specular: Option<Rgb>,
+    /// `Ke`, zero or more.
+    pub(super) emission: Option<Rgb>,
+    /// `Ns`, zero or more.
+    pub(super) shininess: Option<f32>,
+    /// `d`, in 0..1: 1 is opaque.
+    pub(super) dissolve: Option<f32>,
+    /// `Tr`, in 0..1: 0 is opaque.
+    pub(super) transparency: Option<f32>,
+    /// `illum`.
+    pub(super) illumination: Option<u32>,
+    /// `map_Kd`.
+    pub(super) diffuse_map: Option<Map>,
+    /// `map_Ks`.
+    pub(super) specular_map: Option<Map>,
+    /// `map_Ke`.
+    pub(super) emission_map: Option<Map>,
+    /// `map_d`.
+    pub(super) dissolve_map: Option<Map>,
+    /// `map_Bump` or `bump`.
+    pub(super) bump_map: Option<Map>,
+    /// `norm`.
+    pub(super) normal_map: Option<Map>,
+}
+
+/// The materials of a text; `file` is its name, for warnings.
+pub(super) fn read(text: &[u8], file: &str, warnings: &mut Warnings) -> Vec<MtlMaterial> {
+    let mut materials: Vec<MtlMaterial> = Vec::new();
+    let mut lines = Lines::new(text);
+    while let Some(line) = lines.next_line() {
+        let mut words = Words::of(line.text);
+        let Some(keyword) = words.next() else {
+            continue;
+        };
+        if keyword.starts_with(b"#") {
+            continue;
+        }
+        if keyword == b"newmtl" {
+            materials.push(MtlMaterial {
+                name: name(words.rest()),
+                ..MtlMaterial::default()
+            });
+            continue;
+        }
+        let mut bad = |problem: String| {
+            let number = line.number;
+            warnings.add(format!(
+                "{file}: line {number}: {problem}; the line is ignored"
+            ));
+        };
+        let mut ignored = Vec::new();
+        match materials.last_mut() {
+            // Without its words: the file may be no MTL at all, and none of ours to quote.
+            None => warnings.add(format!(
+                "{file}: a statement before the first newmtl is ignored"
+            )),
+            Some(material) => match material.set(keyword, words, &mut ignored) {
+                Ok(true) => {}
+                Ok(false) => warnings.add(format!(
+                    "{file}: statement \"{}\" is not supported and ignored",
+                    shown(keyword)
+                )),
+                Err(problem) => bad(format!("{} {problem}", shown(keyword))),
+            },
+        }
+        for option in ignored {
+            warnings.add(format!(
+                "{file}: texture option {option} is not supported and ignored"
+            ));
+        }
+    }
+    materials
+}
+
+impl MtlMaterial {
+    /// Takes a statement over; whether luch knows it.
+    fn set(
+        &mut self,
+        keyword: &[u8],
+        words: Words,
+        ignored: &mut Vec<String>,
+    ) -> Result<bool, String> {
+        // Writers do not agree on capitals: map_Bump and map_bump, map_kD.
+        match keyword.to_ascii_lowercase().as_slice() {
+            b"kd" => self.diffuse = Some(color(words)?),
+            b"ks" => self.specular = Some(color(words)?),
+            b"ke" => self.emission = Some(color(words)?),
+            b"ns" => self.shininess = Some(amount(words)?),
+            b"d" => self.dissolve = Some(share(words)?),
+            b"tr" => self.transparency = Some(share(words)?),
+            b"illum" => self.illumination = Some(illumination(words)?),
+            b"map_kd" => self.diffuse_map = Some(Map::read(words, ignored)?),
+            b"map_ks" => self.specular_map = Some(Map::read(words, ignored)?),
+            b"map_ke" => self.emission_map = Some(Map::read(words, ignored)?),
+            b"map_d" => self.dissolve_map = Some(Map::read(words, ignored)?),
+            b"map_bump" | b"bump" => self.bump_map = Some(Map::read(words, ignored)?),
+            b"norm" | b"map_norm" | b"map_kn" => self.normal_map = Some(Map::read(words, ignored)?),
+            // Nearly every file has them, and luch has no use for them: ambient light falls on the diffuse colour, and
+            // nothing refracts.
+            b"ka" | b"map_ka" | b"ni" | b"tf" | b"sharpness" => {}
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+}
+
+/// `r g b`, or one number for all three.
+fn color(mut words: Words) -> Result<Rgb, String> {
+    let first = words.rest();
+    if first.starts_with(b"spectral") || first.starts_with(b"xyz") {
+        return Err(format!("is given as \"{}\", expected r g b", shown(first)));
+    }
+    let channels = numbers::<3>(&mut words)?;
+    let (red, green, blue) = match channels {
+        (1, [grey, _, _]) => (grey, grey, grey),
+        (3, [red, green, blue]) => (red, green, blue),
+        (count, _) => {
+            return Err(format!("has too few numbers ({count}), expected r g b"));
+        }
+    };
+    if [red, green, blue].iter().all(|channel| *channel >= 0.0) {
+        Ok(Rgb::new(red, green, blue))
+    } else {
+        Err(format!(
+            "is {red} {green} {blue}, expected 0 or more in every channel"
+        ))
+    }
+}
+
+fn amount(mut words: Words) -> Result<f32, String> {
+    match numbers::<1>(&mut words)? {
+        (1, [amount]) if amount >= 0.0 => Ok(amount),
+        (1, [amount]) => Err(format!("is {amount}, expected 0 or more")),
+        _ => Err("has no number, expected one".into()),
+    }
+}
+
+fn share(mut words: Words) -> Result<f32, String> {
+    if words.rest().starts_with(b"-halo") {
+        return Err("depends on the view (-halo), expected a number".into());
+    }
+    match numbers::<1>(&mut words)? {
+        (1, [share]) if (0.0..=1.0).contains(&share) => Ok(share),
+        (1, [share]) => Err(format!("is {share}, expected a share from 0 to 1")),
+        _ => Err("has no number, expected one".into()),
+    }
+}
+
+fn illumination(mut words: Words) -> Result<u32, String> {
+    const LAST: u32 = 10;
+    let word = words.next().unwrap_or_default();
+    let model: Option<u32> = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
+    model
+        .filter(|&model| model <= LAST)
+        .ok_or_else(|| format!("is \"{}\", expected 0 to {LAST}", shown(word)))
+}
+
+/// How many numbers there are, up to `N`, and them.
+fn numbers<const N: usize>(words: &mut Words) -> Result<(usize, [f32; N]), String> {
+    let mut numbers = [0.0; N];
+    let mut count = 0;
+    let words = words.take_while(|word| !word.starts_with(b"#"));
+    for (slot, word) in numbers.iter_mut().zip(words) {
+        *slot = number(word)
+            .filter(|number| number.is_finite())
+            .ok_or_else(|| format!("has \"{}\", expected a finite number", shown(word)))?;
+        count += 1;
+    }
+    Ok((count, numbers))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read_all(text: &str) -> (Vec<MtlMaterial>, Vec<String>) {
+        let mut warnings = Warnings::default();
+        let materials = read(text.as_bytes(), "a.mtl", &mut warnings);
+        (
+            materials,
+            warnings.iter().map(ToString::to_string).collect(),
+        )
+    }
+
+    #[test]
+    fn statements_belong_to_the_material_before_them() {
+        let (materials, warnings) = read_all(
+            "# two\nnewmtl dark oak\n\tKd .1 .2 .3 # brown\nNs 10\nnewmtl b\nKe 2\nd .5\nTr .25\n\
+             illum 3\nmap_Bump -bm 2 b.png\n",
+        );
+        let [oak, b] = materials.as_slice() else {
+            panic!("two expected")
+        };
+        assert_eq!(oak.name, "dark oak");
+        assert_eq!(oak.diffuse, Some(Rgb::new(0.1, 0.2, 0.3)));
+        assert_eq!(oak.shininess, Some(10.0));
+        assert_eq!(b.emission, Some(Rgb::grey(2.0)));
+        assert_eq!((b.dissolve, b.transparency), (Some(0.5), Some(0.25)));
+        assert_eq!(b.illumination, Some(3));
+        assert_eq!(b.bump_map.as_ref().unwrap().bump_multiplier, 2.0);
+        assert_eq!(warnings, [""; 0]);
+    }
+
+    #[test]
+    fn a_wrong_line_costs_that_line() {
+        let lines = [
+            ("Kd 0.5 0.5", "Kd has too few numbers (2), expected r g b"),
+            ("Kd 1 1 x", "Kd has \"x\", expected a finite number"),
+            ("Kd nan 1 1", "Kd has \"nan\", expected a finite number"),
+            (
+                "Ks -1 0 0",
+                "Ks is -1 0 0, expected 0 or more in every channel",
+            ),
+            ("Ke", "Ke has too few numbers (0), expected r g b"),
+            (
+                "Kd spectral a.rfl",
+                "Kd is given as \"spectral a.rfl\", expected r g b",
+            ),
+            ("Ns -1", "Ns is -1, expected 0 or more"),
+            ("d 1.5", "d is 1.5, expected a share from 0 to 1"),
+            (
+                "d -halo 0.5",
+                "d depends on the view (-halo), expected a number",
+            ),
+            ("Tr", "Tr has no number, expected one"),
+            ("illum 99", "illum is \"99\", expected 0 to 10"),
+            ("map_Kd", "map_Kd names no texture"),
+        ];
+        for (line, problem) in lines {
+            let (materials, warnings) = read_all(&format!("newmtl a\n{line}\nKd 1 0 0"));
+            assert_eq!(
+                warnings,
+                [format!("a.mtl: line 2: {problem}; the line is ignored")]
+            );
+            assert_eq!(materials[0].diffuse, Some(Rgb::new(1.0, 0.0, 0.0)));
+        }
+    }
+
+    #[test]
+    fn a_statement_before_any_material_is_told() {
+        assert_eq!(
+            read_all("Kd 1 1 1").1,
+            ["a.mtl: a statement before the first newmtl is ignored"]
+        );
+    }
+
+    #[test]
+    fn each_unknown_kind_is_told_once() {
+        let (_, warnings) = read_all("newmtl a\nPr 1\nPr 2\nmap_Kd -mm 0 1 a.png\n");
+        assert_eq!(
+            warnings,
+            [
+                "a.mtl: statement \"Pr\" is not supported and ignored (2 times)",
+                "a.mtl: texture option -mm is not supported and ignored"
+            ]
+        );
+    }
+}

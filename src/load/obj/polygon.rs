@@ -1,0 +1,178 @@
+//! From a polygon to triangles; crate `earcut` is named here alone.
+
+use earcut::Earcut;
+use glam::DVec3;
+
+/// A polygon with more corners becomes a fan: ear clipping can take time that grows with their square.
+const MOST_CLIPPED: usize = 1 << 17;
+
+/// Cuts polygons; keeps its memory from one to the next.
+pub(super) struct Triangulator {
+    earcut: Earcut<f64>,
+    flat: Vec<[f64; 2]>,
+    indices: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Triangulator {
+    pub(super) fn new() -> Triangulator {
+        Triangulator {
+            earcut: Earcut::new(),
+            flat: Vec::new(),
+            indices: Vec::new(),
+            triangles: Vec::new(),
+        }
+    }
+
+    /// Triangles of indices into `corners`, three or more of them, that turn as the polygon does.
+    pub(super) fn cut(&mut self, corners: &[DVec3]) -> &[[u32; 3]] {
+        self.triangles.clear();
+        let normal = newell_normal(corners);
+        let faces_front = |&[a, b, c]: &[u32; 3]| {
+            let [a, b, c] = [a, b, c].map(|i| corners.get(i as usize).copied().unwrap_or_default());
+            (b - a).cross(c - a).dot(normal) > 0.0
+        };
+        let last = (corners.len() as u32).saturating_sub(1);
+        let fan = (1..last).map(|i| [0, i, i + 1]);
+        let is_plain = fan.clone().all(|triangle| faces_front(&triangle));
+        let other_diagonal = [[1, 2, 3], [1, 3, 0]];
+        if is_plain || normal == DVec3::ZERO || corners.len() > MOST_CLIPPED {
+            self.triangles.extend(fan);
+        } else if corners.len() == 4 && other_diagonal.iter().all(faces_front) {
+            self.triangles.extend(other_diagonal);
+        } else {
+            self.clip(corners, normal);
+            if self.triangles.is_empty() {
+                self.triangles.extend(fan);
+            }
+        }
+        &self.triangles
+    }
+
+    fn clip(&mut self, corners: &[DVec3], normal: DVec3) {
+        // Dropping the axis along which the normal is longest keeps what is concave concave.
+        let along = normal.abs();
+        let flatten = |p: &DVec3| match along {
+            a if a.x >= a.y && a.x >= a.z => [p.y, p.z],
+            a if a.y >= a.z => [p.z, p.x],
+            _ => [p.x, p.y],
+        };
+        let mirrors = match along {
+            a if a.x >= a.y && a.x >= a.z => normal.x < 0.0,
+            a if a.y >= a.z => normal.y < 0.0,
+            _ => normal.z < 0.0,
+        };
+        self.flat.clear();
+        self.flat.extend(corners.iter().map(flatten));
+        self.earcut.earcut_slice(&self.flat, &[], &mut self.indices);
+        for &[a, b, c] in self.indices.as_chunks::<3>().0 {
+            let [p, q, r] =
+                [a, b, c].map(|i| self.flat.get(i as usize).copied().unwrap_or_default());
+            let area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+            let turned = (area < 0.0) != mirrors;
+            self.triangles
+                .push(if turned { [a, c, b] } else { [a, b, c] });
+        }
+    }
+}
+
+/// Twice the area vector of a polygon, planar or not; zero where it has no area (Newell's method: Sutherland, Sproull
+/// and Schumacker 1974, "A Characterization of Ten Hidden-Surface Algorithms").
+pub(super) fn newell_normal(corners: &[DVec3]) -> DVec3 {
+    // From the first corner, so that a polygon far from the origin loses no digits.
+    let first = corners.first().copied().unwrap_or_default();
+    corners
+        .iter()
+        .zip(corners.iter().skip(1))
+        .fold(DVec3::ZERO, |sum, (&a, &b)| {
+            sum + (a - first).cross(b - first)
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn area_vector(corners: &[DVec3], triangles: &[[u32; 3]]) -> DVec3 {
+        triangles.iter().fold(DVec3::ZERO, |sum, triangle| {
+            let [a, b, c] = triangle.map(|i| corners[i as usize]);
+            sum + (b - a).cross(c - a)
+        })
+    }
+
+    fn area(corners: &[DVec3], triangles: &[[u32; 3]]) -> f64 {
+        let one = |triangle: &[u32; 3]| area_vector(corners, &[*triangle]).length() / 2.0;
+        triangles.iter().map(one).sum()
+    }
+
+    fn flat(corners: &[[f64; 2]]) -> Vec<DVec3> {
+        corners
+            .iter()
+            .map(|&[x, y]| DVec3::new(x, y, 0.0))
+            .collect()
+    }
+
+    #[test]
+    fn a_concave_polygon_is_covered_once_from_every_side() {
+        // An L of three unit squares.
+        let shape = [[0., 0.], [2., 0.], [2., 1.], [1., 1.], [1., 2.], [0., 2.]];
+        let turns = [
+            |p: DVec3| p,
+            |p: DVec3| DVec3::new(p.z, p.x, p.y),
+            |p: DVec3| DVec3::new(p.y, p.z, p.x),
+            |p: DVec3| DVec3::new(p.y, p.x, p.z),
+            |p: DVec3| DVec3::new(p.x, p.y, p.x - p.y + 3.0),
+        ];
+        for (turn, stretch) in turns.into_iter().zip([1., 1., 1., 1., 3f64.sqrt()]) {
+            for rotation in 0..shape.len() {
+                let mut corners: Vec<DVec3> = flat(&shape).into_iter().map(turn).collect();
+                corners.rotate_left(rotation);
+                let mut triangulator = Triangulator::new();
+                let triangles = triangulator.cut(&corners).to_vec();
+                assert_eq!(triangles.len(), 4);
+                assert!((area(&corners, &triangles) - 3.0 * stretch).abs() < 1e-12);
+                let same_side = area_vector(&corners, &triangles).dot(newell_normal(&corners));
+                assert!((same_side - 36.0 * stretch * stretch).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn an_arrowhead_is_cut_at_its_notch() {
+        let arrow = flat(&[[0., 0.], [2., 1.], [0., 2.], [1., 1.]]);
+        for rotation in 0..4 {
+            let mut corners = arrow.clone();
+            corners.rotate_left(rotation);
+            let mut triangulator = Triangulator::new();
+            let triangles = triangulator.cut(&corners);
+            assert_eq!(triangles.len(), 2);
+            assert!((area(&corners, triangles) - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_convex_polygon_is_a_fan() {
+        let corners = flat(&[[0., 0.], [2., 0.], [3., 1.], [2., 2.], [0., 2.]]);
+        let fan = [[0, 1, 2], [0, 2, 3], [0, 3, 4]];
+        assert_eq!(Triangulator::new().cut(&corners), fan);
+    }
+
+    #[test]
+    fn a_polygon_without_area_still_has_triangles() {
+        let line = flat(&[[0., 0.], [1., 0.], [2., 0.], [3., 0.]]);
+        assert_eq!(Triangulator::new().cut(&line).len(), 2);
+        assert_eq!(Triangulator::new().cut(&[DVec3::ONE; 5]).len(), 3);
+    }
+
+    #[test]
+    fn a_comb_of_thousands_of_teeth_is_cut_in_time() {
+        let teeth = 20_000;
+        let tops = (0..teeth).map(|i| [f64::from(i), f64::from(i % 2) * 10.0 + 1.0]);
+        let ends = [[f64::from(teeth - 1), 0.0], [0.0, 0.0]];
+        let corners = flat(&tops.chain(ends).collect::<Vec<_>>());
+        let mut triangulator = Triangulator::new();
+        let triangles = triangulator.cut(&corners);
+        let expected = newell_normal(&corners).length() / 2.0;
+        assert!((area(&corners, triangles) - expected).abs() < 1e-6 * expected);
+    }
+}
