@@ -11,14 +11,14 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The operating system refused.
-    #[error("{}: cannot {doing}: {source}", shown(file))]
+    #[error("{}: cannot {doing}: {reason}", shown(file))]
     Io {
         /// The file.
         file: PathBuf,
         /// What was being done, as in "cannot read".
         doing: &'static str,
-        /// What the system said.
-        source: io::Error,
+        /// What the system said. It is in the message, so it is no `source`.
+        reason: io::Error,
     },
     /// The file is wrong.
     #[error("{}: {}{problem}", shown(file), Place(place))]
@@ -43,12 +43,12 @@ pub enum Error {
         way_out: String,
     },
     /// What the file says makes no scene.
-    #[error("{}: {source}", shown(file))]
+    #[error("{}: {problem}", shown(file))]
     Scene {
         /// The file.
         file: PathBuf,
         /// What is wrong with it.
-        source: SceneError,
+        problem: SceneError,
     },
 }
 
@@ -66,10 +66,10 @@ impl Error {
     /// A closure that makes an [`Error::Io`] of what the system said.
     pub fn io(file: &Path, doing: &'static str) -> impl FnOnce(io::Error) -> Error {
         let file = file.to_owned();
-        move |source| Error::Io {
+        move |reason| Error::Io {
             file,
             doing,
-            source,
+            reason,
         }
     }
 }

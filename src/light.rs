@@ -78,14 +78,14 @@ impl Light {
                 distance: f32::INFINITY,
                 irradiance: emitted,
             }),
-            LightKind::Point { position } => self.from_position(position, point, emitted),
+            LightKind::Point { position } => self.illuminate_from(position, point, emitted),
             LightKind::Spot {
                 position,
                 direction,
                 inner_angle,
                 outer_angle,
             } => {
-                let light = self.from_position(position, point, emitted)?;
+                let light = self.illuminate_from(position, point, emitted)?;
                 let cone =
                     cone_attenuation(direction.dot(-light.to_light), inner_angle, outer_angle);
                 (cone > 0.0).then_some(Illumination {
@@ -96,7 +96,7 @@ impl Light {
         }
     }
 
-    fn from_position(&self, position: Vec3, point: Vec3, emitted: Rgb) -> Option<Illumination> {
+    fn illuminate_from(&self, position: Vec3, point: Vec3, emitted: Rgb) -> Option<Illumination> {
         let toward = position - point;
         let distance = toward.length();
         if distance == 0.0 {

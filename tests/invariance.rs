@@ -1,5 +1,6 @@
 //! Same scene, same bits: whatever threads, tiles, trees and places do.
 
+use crate::common::picture::bits;
 use glam::Vec3;
 use luch::accel::{Accel, Options, Preset};
 use luch::camera::Camera;
@@ -80,13 +81,6 @@ fn picture(scene: &Scene, options: &Options, settings: &Settings) -> Film {
         settings,
         &Progress::default(),
     )
-}
-
-fn bits(film: &Film) -> Vec<Vec<u32>> {
-    film.layers
-        .iter()
-        .map(|layer| layer.values.iter().map(|v| v.to_bits()).collect())
-        .collect()
 }
 
 #[test]

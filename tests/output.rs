@@ -99,8 +99,8 @@ fn a_full_disk_is_an_error_wherever_it_ends() {
         for room in 0..size {
             let written = encode(&film, format, &options, Path::new("a"), &mut Full(room));
             match written {
-                Err(Error::Io { source, .. }) => {
-                    assert_eq!(source.kind(), io::ErrorKind::StorageFull);
+                Err(Error::Io { reason, .. }) => {
+                    assert_eq!(reason.kind(), io::ErrorKind::StorageFull);
                 }
                 other => panic!("{format:?} in {room} bytes: {other:?}"),
             }

@@ -2,6 +2,7 @@
 
 mod accel;
 mod analytic;
+mod assets;
 mod common;
 mod invariance;
 mod load_scene_file;

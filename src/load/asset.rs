@@ -102,9 +102,9 @@ impl Asset {
         description.camera = viewpoint::camera(self, viewpoint, &description, &mut choices)?;
         viewpoint::light(self, &mut description, &mut choices);
         description.background = viewpoint::background(self, viewpoint, &mut choices);
-        let in_file = |source| Error::Scene {
+        let in_file = |problem| Error::Scene {
             file: self.file.clone(),
-            source,
+            problem,
         };
         let scene = Scene::new(description).map_err(in_file)?;
         Ok((scene, choices))

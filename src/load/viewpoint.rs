@@ -83,7 +83,7 @@ fn chosen_camera(
         (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => of_file(name),
         (CameraChoice::OfFile, None) => {
             let first = cameras(asset).next();
-            Ok(first.map(|(_, camera)| camera).unwrap_or_else(|| {
+            Ok(first.map(|placed| placed.camera).unwrap_or_else(|| {
                 choices.lines.push(
                     "camera: none in the file; a three-quarter view, fitted to the model".into(),
                 );
@@ -97,8 +97,15 @@ fn chosen_camera(
     }
 }
 
-/// Every camera that a node of a model places, with its name.
-fn cameras(asset: &Asset) -> impl Iterator<Item = (String, Camera)> {
+/// A camera in its place, the name it goes by, and that of its node.
+struct PlacedCamera {
+    name: String,
+    node: String,
+    camera: Camera,
+}
+
+/// Every camera that a node of a model places.
+fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
     asset.models.iter().flat_map(|placed| {
         let nodes = placed.model.placed_nodes();
         nodes.into_iter().filter_map(move |(node, to_model)| {
@@ -117,32 +124,34 @@ fn cameras(asset: &Asset) -> impl Iterator<Item = (String, Camera)> {
             } else {
                 camera.name.clone()
             };
-            Some((
+            let camera = Camera {
+                position: position.as_vec3(),
+                look_at: target.as_vec3(),
+                up: up.as_vec3(),
+                projection: camera.projection,
+                near: camera.near,
+                far: camera.far,
+                clip: Clip::Axis,
+            };
+            Some(PlacedCamera {
                 name,
-                Camera {
-                    position: position.as_vec3(),
-                    look_at: target.as_vec3(),
-                    up: up.as_vec3(),
-                    projection: camera.projection,
-                    near: camera.near,
-                    far: camera.far,
-                    clip: Clip::Axis,
-                },
-            ))
+                node: node.name.clone(),
+                camera,
+            })
         })
     })
 }
 
 fn camera_of_model(asset: &Asset, wanted: &str) -> Option<Camera> {
-    let by_name = cameras(asset).find(|(name, _)| name == wanted);
+    let by_name = cameras(asset).find(|placed| placed.name == wanted || placed.node == wanted);
     let by_index = || cameras(asset).nth(wanted.parse().ok()?);
-    by_name.or_else(by_index).map(|(_, camera)| camera)
+    by_name.or_else(by_index).map(|placed| placed.camera)
 }
 
 fn no_such_camera(asset: &Asset, wanted: &str) -> String {
     let known: Vec<String> = (0..)
         .zip(cameras(asset))
-        .map(|(i, (name, _))| format!("{i} \"{name}\""))
+        .map(|(i, PlacedCamera { name, .. })| format!("{i} \"{name}\""))
         .collect();
     match known.as_slice() {
         [] => format!("there is no camera \"{wanted}\"; the file has none"),

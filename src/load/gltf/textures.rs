@@ -265,7 +265,7 @@ fn decode(
 /// An error of a file that the sentence around it names already.
 fn why(error: &Error) -> String {
     match error {
-        Error::Io { doing, source, .. } => format!("cannot {doing}: {source}"),
+        Error::Io { doing, reason, .. } => format!("cannot {doing}: {reason}"),
         Error::Malformed { problem, .. } => problem.clone(),
         other => other.to_string(),
     }

@@ -1,0 +1,37 @@
+//! Small pictures, and their bits.
+
+use luch::accel::{Accel, Options};
+use luch::film::Film;
+use luch::load::{CameraChoice, Viewpoint};
+use luch::render::{Progress, Settings, render};
+use luch::scene::Scene;
+use luch::shade::Shading;
+
+/// As the file says, framed where it does not.
+pub(crate) fn viewpoint(aspect: f64) -> Viewpoint {
+    Viewpoint {
+        aspect,
+        camera: CameraChoice::OfFile,
+        fov_y: None,
+        background: None,
+    }
+}
+
+/// A picture of one sample a pixel.
+pub(crate) fn of(scene: &Scene, width: u32, height: u32, shading: Shading) -> Film {
+    let settings = Settings::new(width, height, 1, 5, shading).expect("settings");
+    render(
+        scene,
+        &Accel::build(scene, &Options::default()),
+        &settings,
+        &Progress::default(),
+    )
+}
+
+/// Every number of every layer, bit by bit.
+pub(crate) fn bits(film: &Film) -> Vec<Vec<u32>> {
+    film.layers
+        .iter()
+        .map(|layer| layer.values.iter().map(|v| v.to_bits()).collect())
+        .collect()
+}
