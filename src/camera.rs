@@ -1,17 +1,20 @@
 //! The camera: from a continuous picture position to a primary ray.
 
 use crate::ray::Ray;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 /// A pinhole or a parallel camera, before it knows the picture's size.
+///
+/// Place and angles are in `f64`: near the horizon, the last bit of a 32-bit angle moves what a ray meets by a square of
+/// the paper's checkerboard.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// `C`, the centre of projection; world space.
-    pub position: Vec3,
+    pub position: DVec3,
     /// `F`, a point the camera looks at; differs from `position`.
-    pub look_at: Vec3,
+    pub look_at: DVec3,
     /// Up in the picture; need not be perpendicular to the view, nor of unit length.
-    pub up: Vec3,
+    pub up: DVec3,
     /// How wide the camera sees.
     pub projection: Projection,
     /// The least accepted distance.
@@ -45,11 +48,11 @@ pub enum Projection {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fov {
     /// The whole horizontal angle.
-    X(f32),
+    X(f64),
     /// The whole vertical angle.
-    Y(f32),
+    Y(f64),
     /// Both: pixels need not be square.
-    Both(f32, f32),
+    Both(f64, f64),
 }
 
 /// Along what the near and far distances are measured.
@@ -63,11 +66,16 @@ pub enum Clip {
 
 impl Camera {
     /// A perspective camera without clipping: `fov_y` in radians.
-    pub fn looking_at(position: Vec3, look_at: Vec3, up: Vec3, fov_y: f32) -> Camera {
+    pub fn looking_at(
+        position: impl Into<DVec3>,
+        look_at: impl Into<DVec3>,
+        up: impl Into<DVec3>,
+        fov_y: f64,
+    ) -> Camera {
         Camera {
-            position,
-            look_at,
-            up,
+            position: position.into(),
+            look_at: look_at.into(),
+            up: up.into(),
             projection: Projection::Perspective { fov: Fov::Y(fov_y) },
             near: 0.0,
             far: f32::INFINITY,
@@ -79,10 +87,10 @@ impl Camera {
     ///
     /// Where `up` is parallel to `w`, the world axis least along `w` takes its place (the earlier one of two alike).
     pub fn basis(&self) -> [DVec3; 3] {
-        let w = (self.look_at.as_dvec3() - self.position.as_dvec3()).normalize_or(DVec3::NEG_Z);
-        let up = self.up.as_dvec3().normalize_or(DVec3::Y);
+        let w = (self.look_at - self.position).normalize_or(DVec3::NEG_Z);
+        let up = self.up.normalize_or(DVec3::Y);
         let sideways = w.cross(up);
-        // The sine of the angle between them: below this, 32-bit input cannot say which way is up.
+        // The sine of the angle between them: below this, input that was once 32 bits cannot say which way is up.
         let sideways = if sideways.length() < 1e-6 {
             w.cross(least_along(w))
         } else {
@@ -96,7 +104,7 @@ impl Camera {
     pub fn view(&self, width: u32, height: u32) -> View {
         let [u, v, w] = self.basis();
         let aspect = f64::from(width) / f64::from(height);
-        let tan_half = |angle: f32| libm::tan(f64::from(angle) / 2.0);
+        let tan_half = |angle: f64| libm::tan(angle / 2.0);
         let (x, y) = match self.projection {
             Projection::Perspective { fov: Fov::X(fov) } => (tan_half(fov), tan_half(fov) / aspect),
             Projection::Perspective { fov: Fov::Y(fov) } => (tan_half(fov) * aspect, tan_half(fov)),
@@ -155,7 +163,7 @@ impl View {
         let [half_width, half_height] = self.half_size;
         let across =
             self.u * ((x - half_width) / half_width) + self.v * ((half_height - y) / half_height);
-        let position = self.camera.position.as_dvec3();
+        let position = self.camera.position;
         let (origin, d) = match self.camera.projection {
             Projection::Perspective { .. } => (position, (self.w + across).normalize()),
             Projection::Orthographic { .. } => (position + across, self.w),
@@ -175,7 +183,7 @@ impl View {
 
     /// The distance of the point `ray(t)` along the camera's axis: what an EXR's `Z` holds.
     pub fn depth(&self, ray: &Ray, t: f32) -> f32 {
-        let start = (ray.origin.as_dvec3() - self.camera.position.as_dvec3()).dot(self.w);
+        let start = (ray.origin.as_dvec3() - self.camera.position).dot(self.w);
         (start + f64::from(t) * ray.direction.as_dvec3().dot(self.w)) as f32
     }
 }
@@ -183,7 +191,8 @@ impl View {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f32::consts::FRAC_PI_2;
+    use glam::Vec3;
+    use std::f64::consts::FRAC_PI_2;
 
     fn close(a: Vec3, b: Vec3) -> bool {
         (a - b).length() < 1e-6
@@ -193,7 +202,7 @@ mod tests {
     fn the_centre_of_the_picture_looks_along_w() {
         let camera = Camera::looking_at(Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO, Vec3::Y, 1.0);
         let ray = camera.view(640, 480).primary_ray(320.0, 240.0);
-        assert!(close(ray.direction, -camera.position.normalize()));
+        assert!(close(ray.direction, -camera.position.normalize().as_vec3()));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::geometry::{Bounds, Triangle};
 use glam::{DVec3, Vec3};
 
 /// The vertical field of view of a framed picture, in radians (35 degrees): as far from a fish eye as from a telescope.
-pub const FOV_Y: f32 = 0.610_865_24;
+pub const FOV_Y: f64 = 0.610_865_238_198_015_3;
 /// The share of the picture's width or height, whichever is tighter, that the model fills.
 const FILL: f64 = 0.8;
 /// A view from which less than this share of the most visible area is seen is edge-on.
@@ -44,7 +44,7 @@ pub struct Face {
 /// A camera that sees all of `faces`, from three quarters and slightly above, or from where their broad side is seen
 /// if that view is edge-on. Their projection fills 80 % of the width or the height of a picture of this `aspect`
 /// (width / height), and is in its middle; `fov_y` is in radians. Without faces it looks at the origin.
-pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64, fov_y: f32) -> Camera {
+pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64, fov_y: f64) -> Camera {
     let azimuth_and_elevation = broadest(faces.clone());
     let towards_viewer = unit(azimuth_and_elevation);
     let points = faces.flat_map(|face| face.triangle.0);
@@ -60,12 +60,12 @@ pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64, fov_y: f32)
             ((max - min).length() * 0.5).max(1e-4 * reach).max(1e-30),
         )
     };
-    let looking = Camera::looking_at(towards_viewer.as_vec3(), Vec3::ZERO, Vec3::Y, 1.0);
+    let looking = Camera::looking_at(towards_viewer, DVec3::ZERO, DVec3::Y, 1.0);
     let position = fitted_position(points, looking.basis(), (center, radius), (aspect, fov_y));
     // The target is the point of the axis nearest to the middle of the model.
     let axis = -towards_viewer;
     let target = position + axis * (center - position).dot(axis).max(radius * 0.01);
-    Camera::looking_at(position.as_vec3(), target.as_vec3(), Vec3::Y, fov_y)
+    Camera::looking_at(position, target, DVec3::Y, fov_y)
 }
 
 /// The nearest position from which all points lie inside the middle `FILL` of the picture.
@@ -77,9 +77,9 @@ fn fitted_position(
     points: impl Iterator<Item = Vec3>,
     [u, v, w]: [DVec3; 3],
     (center, radius): (DVec3, f64),
-    (aspect, fov_y): (f64, f32),
+    (aspect, fov_y): (f64, f64),
 ) -> DVec3 {
-    let tan_y = libm::tan(f64::from(fov_y) / 2.0);
+    let tan_y = libm::tan(fov_y / 2.0);
     let (k_x, k_y) = (FILL * tan_y * aspect, FILL * tan_y);
     let mut fit_x = Fit::new(k_x);
     let mut fit_y = Fit::new(k_y);
@@ -200,9 +200,9 @@ mod tests {
     /// The least and the greatest picture position of the faces' vertices, 0..1 in both directions.
     fn projected(camera: &Camera, faces: &[Face], aspect: f64) -> (DVec3, DVec3) {
         let [u, v, w] = camera.basis();
-        let tan = libm::tan(f64::from(FOV_Y) / 2.0);
+        let tan = libm::tan(FOV_Y / 2.0);
         let position = |p: Vec3| {
-            let d = p.as_dvec3() - camera.position.as_dvec3();
+            let d = p.as_dvec3() - camera.position;
             let z = d.dot(w);
             assert!(z > 0.0);
             DVec3::new(
@@ -263,7 +263,10 @@ mod tests {
             let faces = square([-e1 - e2, e1 - e2, e1 + e2, e2 - e1]);
             let camera = frame(faces.iter().copied(), 1.5, FOV_Y);
             let toward = (camera.position - camera.look_at).normalize();
-            assert!(faces[0].triangle.normal().dot(toward) > 0.3, "{normal}");
+            assert!(
+                faces[0].triangle.normal().as_dvec3().dot(toward) > 0.3,
+                "{normal}"
+            );
         }
     }
 

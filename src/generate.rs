@@ -23,7 +23,7 @@ use crate::light::{Falloff, Light, LightKind};
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::scene::{Instance, Object, SceneDescription};
-use glam::{DAffine3, Vec3};
+use glam::{DAffine3, DVec3};
 
 /// A scene of one matt mesh and one point light above the camera.
 pub fn mesh_scene(mesh: Mesh, camera: Camera) -> SceneDescription {
@@ -56,7 +56,7 @@ pub fn sphere_scene(spheres: Vec<Sphere>, camera: Camera) -> SceneDescription {
 fn lit(camera: Camera) -> SceneDescription {
     let distance = (camera.look_at - camera.position).length();
     let kind = LightKind::Point {
-        position: camera.position + Vec3::Y * distance,
+        position: (camera.position + DVec3::Y * distance).as_vec3(),
     };
     let light = Light {
         name: String::new(),

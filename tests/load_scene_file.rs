@@ -4,7 +4,7 @@ mod wrong_files;
 mod wrong_keys;
 mod wrong_values;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use luch::camera::{Camera, Clip, Fov, Projection};
 use luch::color::Rgb;
 use luch::light::{Falloff, Light, LightKind};
@@ -13,7 +13,8 @@ use luch::load::{Asset, CameraSource, PictureDefaults};
 use luch::material::{Alpha, Material, Model};
 use luch::shade::Shading;
 use luch::texture::Checker;
-use std::f32::consts::PI;
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
@@ -84,7 +85,7 @@ fn material(name: &str) -> Material {
 #[test]
 fn what_is_not_written_has_the_documented_default() {
     let asset = with("[[light]]\ntype = \"point\"\nposition = [1, 2, 3]");
-    let camera = Camera::looking_at(Vec3::Z * -5.0, Vec3::ZERO, Vec3::Y, degrees(40.0));
+    let camera = Camera::looking_at(Vec3::Z * -5.0, Vec3::ZERO, Vec3::Y, 40f64.to_radians());
     assert_eq!(asset.camera, Some(CameraSource::Given(camera)));
     assert_eq!(camera.clip, Clip::Ray);
     assert_eq!((camera.near, camera.far), (0.0, f32::INFINITY));
@@ -170,11 +171,11 @@ fn every_key_of_the_camera_is_read() {
         "look_at = [0, 1, 0]\nup = [0, 0, 2]\nfov_x = 60\nfov_y = 45.5\nnear = 1\nfar = 9.5",
     );
     let camera = Camera {
-        position: Vec3::Z * -5.0,
-        look_at: Vec3::Y,
-        up: Vec3::Z * 2.0,
+        position: DVec3::Z * -5.0,
+        look_at: DVec3::Y,
+        up: DVec3::Z * 2.0,
         projection: Projection::Perspective {
-            fov: Fov::Both(degrees(60.0), degrees(45.5)),
+            fov: Fov::Both(60f64.to_radians(), 45.5f64.to_radians()),
         },
         near: 1.0,
         far: 9.5,
@@ -253,7 +254,7 @@ fn every_key_of_a_light_is_read() {
             position: Vec3::new(1.0, 2.0, 3.0),
             direction: Vec3::Y * -2.0,
             inner_angle: degrees(10.0),
-            outer_angle: PI / 2.0,
+            outer_angle: FRAC_PI_2,
         },
         color: Rgb::new(1.0, 0.5, 0.0),
         intensity: 4.0,
@@ -265,7 +266,7 @@ fn every_key_of_a_light_is_read() {
         position: Vec3::ZERO,
         direction: Vec3::X,
         inner_angle: 0.0,
-        outer_angle: PI / 4.0,
+        outer_angle: FRAC_PI_4,
     };
     assert_eq!(asset.lights[1].kind, default_spot);
     let sun = LightKind::Directional { direction: Vec3::Z };

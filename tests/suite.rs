@@ -5,5 +5,6 @@ mod analytic;
 mod assets;
 mod common;
 mod invariance;
+mod load_gltf;
 mod load_scene_file;
 mod output;

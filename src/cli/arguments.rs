@@ -105,7 +105,7 @@ pub(super) struct RenderArguments {
 
     /// The vertical field of view [default: the camera's; 40 with --eye, 35 for a framed model]
     #[arg(long, value_name = "DEGREES")]
-    pub(super) fov: Option<f32>,
+    pub(super) fov: Option<f64>,
 
     /// Threads to use [default: all cores]
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]

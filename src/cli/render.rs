@@ -134,7 +134,7 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
 fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Viewpoint {
     let camera = match (arguments.eye, arguments.target, &arguments.camera) {
         (Some(eye), Some(target), _) => {
-            CameraChoice::Given(Camera::looking_at(eye, target, Vec3::Y, 40f32.to_radians()))
+            CameraChoice::Given(Camera::looking_at(eye, target, Vec3::Y, 40f64.to_radians()))
         }
         (_, _, Some(name)) => CameraChoice::Named(name.clone()),
         _ => CameraChoice::OfFile,
@@ -142,7 +142,7 @@ fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Viewpoint {
     Viewpoint {
         aspect: f64::from(settings.width()) / f64::from(settings.height()),
         camera,
-        fov_y: arguments.fov.map(f32::to_radians),
+        fov_y: arguments.fov.map(f64::to_radians),
         background: arguments
             .background
             .map(|BackgroundValue(background)| background),

@@ -99,8 +99,8 @@ pub struct SurfacePoint {
     pub normal: Vec3,
 }
 
-/// A bound on the distance from its surface of a point whose coordinates, as great as `magnitude`, went through a few
-/// roundings: twice the distance between neighbouring numbers there.
-fn error_bound(magnitude: f32) -> f32 {
-    2.0 * f32::EPSILON * magnitude
+/// A bound on the distance from its surface of a point that was found in `f64` and then rounded: `sqrt(3) / 2` of the
+/// distance between neighbouring numbers as great as `magnitude`, its greatest coordinate.
+fn rounding_of(magnitude: f32) -> f32 {
+    f32::EPSILON * magnitude
 }

@@ -1,6 +1,6 @@
 //! The infinite plane.
 
-use super::{SurfacePoint, error_bound};
+use super::{SurfacePoint, rounding_of};
 use crate::ray::Ray;
 use glam::{DVec3, Vec3};
 
@@ -37,7 +37,7 @@ impl Plane {
     /// The point where `ray` meets the plane.
     pub fn surface_point(&self, ray: &Ray) -> SurfacePoint {
         let position = self.double_position(ray).as_vec3();
-        let error = error_bound(position.abs().max_element());
+        let error = rounding_of(position.abs().max_element());
         SurfacePoint {
             position,
             error,

@@ -1,6 +1,6 @@
 //! The sphere.
 
-use super::{Bounds, SurfacePoint, error_bound};
+use super::{Bounds, SurfacePoint, rounding_of};
 use crate::ray::Ray;
 use glam::{DVec3, Vec3};
 
@@ -50,7 +50,7 @@ impl Sphere {
         let p = ray.origin.as_dvec3() + ray.direction.as_dvec3() * f64::from(t);
         let normal = (p - center).normalize_or(DVec3::Y);
         let position = (center + normal * f64::from(self.radius)).as_vec3();
-        let error = error_bound(position.abs().max_element());
+        let error = rounding_of(position.abs().max_element());
         SurfacePoint {
             position,
             error,

@@ -1,6 +1,6 @@
 //! The triangle.
 
-use super::{Bounds, SurfacePoint, error_bound};
+use super::{Bounds, SurfacePoint};
 use crate::ray::Ray;
 use glam::{Vec2, Vec3, Vec3Swizzles};
 
@@ -109,10 +109,11 @@ impl Triangle {
     pub fn surface_point(&self, [v, w]: [f32; 2]) -> SurfacePoint {
         let [a, b, c] = self.0;
         let position = a * (1.0 - v - w) + b * v + c * w;
+        // Three products, two sums and the weights' own roundings.
         let magnitude = self.bounds().extent();
         SurfacePoint {
             position,
-            error: error_bound(magnitude),
+            error: 2.0 * f32::EPSILON * magnitude,
             normal: self.normal(),
         }
     }

@@ -13,6 +13,7 @@ mod container;
 mod document;
 mod emissive_strength;
 mod extensions;
+mod json;
 mod lights_punctual;
 mod materials;
 mod materials_unlit;

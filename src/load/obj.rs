@@ -237,7 +237,12 @@ fn add_shapes(model: &mut Model, geometry: &Geometry, material_of: &[u32]) {
             continue;
         }
         if has_normal_map {
-            mesh = tangents::with_tangents(mesh, 0).unwrap_or_else(|mesh| mesh);
+            if let Err(tangents::TooCrowded) = tangents::add(&mut mesh, 0) {
+                model.warnings.add(format!(
+                    "object {:?}: too many corners meet in one point for tangents, so that its normal map is ignored",
+                    group.object
+                ));
+            }
         }
         let name = geometry.objects.get(group.object as usize);
         mesh.name = name.cloned().unwrap_or_default();

@@ -12,36 +12,39 @@ use std::collections::HashMap;
 /// grows with their square; a real mesh has about six.
 const MOST_AT_A_POINT: u32 = 2_000;
 
-/// `mesh` with tangents along +u of texture coordinates `uv_set`. Vertices whose corners differ in tangent are split.
+/// Too many corners of a mesh meet in one point.
+#[derive(Debug, PartialEq)]
+pub(super) struct TooCrowded;
+
+/// Gives `mesh` tangents along +u of texture coordinates `uv_set`. Vertices whose corners differ in tangent are split.
 ///
 /// # Errors
 ///
-/// The mesh again, as it was: too many of its corners meet in one point.
-pub(super) fn with_tangents(mesh: Mesh, uv_set: usize) -> Result<Mesh, Mesh> {
-    if most_at_a_point(&mesh) > MOST_AT_A_POINT {
-        return Err(mesh);
+/// Too many of its corners meet in one point; the mesh stays as it is.
+pub(super) fn add(mesh: &mut Mesh, uv_set: usize) -> Result<(), TooCrowded> {
+    if most_at_a_point(mesh) > MOST_AT_A_POINT {
+        return Err(TooCrowded);
     }
     // MikkTSpace searches all of a mesh for each triangle that has two corners in one point. No ray meets those.
     let faces = (0..mesh.triangles.len())
         .filter(|&triangle| {
-            let [a, b, c] = [0, 1, 2].map(|corner| position(&mesh, triangle, corner));
+            let [a, b, c] = [0, 1, 2].map(|corner| position(mesh, triangle, corner));
             a != b && b != c && c != a
         })
         .collect();
     let tangents = vec![[Vec4::ZERO; 3]; mesh.triangles.len()];
     let mut corners = Corners {
-        mesh: &mesh,
+        mesh,
         uv_set,
         faces,
         tangents,
     };
-    // Its error type has no values.
+    // Its error has no values.
     let done = generate_tangents(&mut corners);
     let tangents = corners.tangents;
-    match done {
-        Ok(()) => Ok(split(mesh, &tangents)),
-        Err(_) => Err(mesh),
-    }
+    done.map_err(|_| TooCrowded)?;
+    *mesh = split(std::mem::take(mesh), &tangents);
+    Ok(())
 }
 
 fn most_at_a_point(mesh: &Mesh) -> u32 {
@@ -202,9 +205,14 @@ mod tests {
         }
     }
 
+    fn with_tangents(mut mesh: Mesh) -> Mesh {
+        assert_eq!(add(&mut mesh, 0), Ok(()));
+        mesh
+    }
+
     #[test]
     fn the_tangent_runs_along_u_and_the_bitangent_up_the_image() {
-        let mesh = with_tangents(square(), 0).unwrap_or_default();
+        let mesh = with_tangents(square());
         assert_eq!(mesh.tangents, [Vec4::new(1.0, 0.0, 0.0, 1.0); 4]);
         assert_eq!(mesh.positions, square().positions);
     }
@@ -215,7 +223,7 @@ mod tests {
         for uv in &mut mirrored.uvs[0] {
             uv.x = -uv.x;
         }
-        let mesh = with_tangents(mirrored, 0).unwrap_or_default();
+        let mesh = with_tangents(mirrored);
         assert_eq!(mesh.tangents, [Vec4::new(-1.0, 0.0, 0.0, -1.0); 4]);
     }
 
@@ -224,7 +232,7 @@ mod tests {
         let mut bent = square();
         bent.normals.clear();
         bent.positions[3].z = 1.0;
-        let mesh = with_tangents(bent, 0).unwrap_or_default();
+        let mesh = with_tangents(bent);
         assert_eq!((mesh.positions.len(), mesh.tangents.len()), (6, 6));
         assert!(mesh.normals.is_empty());
         for (triangle, corners) in mesh.triangles.iter().enumerate() {
@@ -239,7 +247,7 @@ mod tests {
     fn a_triangle_without_area_keeps_its_vertices_and_gets_no_tangent() {
         let mut mesh = square();
         mesh.triangles.push([0, 0, 1]);
-        let mesh = with_tangents(mesh, 0).unwrap_or_default();
+        let mesh = with_tangents(mesh);
         let tangent = mesh.tangents[mesh.triangles[2][0] as usize];
         assert_eq!((mesh.triangles.len(), tangent), (3, Vec4::ZERO));
     }
@@ -248,6 +256,7 @@ mod tests {
     fn a_crowded_point_is_refused_not_recursed_into() {
         let mut fan = square();
         fan.triangles = vec![[0, 1, 2]; 2_001];
-        assert!(with_tangents(fan, 0).is_err());
+        assert_eq!(add(&mut fan, 0), Err(TooCrowded));
+        assert!(fan.tangents.is_empty());
     }
 }

@@ -18,7 +18,7 @@ pub struct Viewpoint {
     /// From where.
     pub camera: CameraChoice,
     /// The vertical field of view in radians, instead of the camera's own.
-    pub fov_y: Option<f32>,
+    pub fov_y: Option<f64>,
     /// The background; the file's, or a default, where it is `None`.
     pub background: Option<Background>,
 }
@@ -117,7 +117,6 @@ fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
                 .transform_vector3(DVec3::NEG_Z)
                 .normalize_or(DVec3::NEG_Z);
             let up = to_world.transform_vector3(DVec3::Y).normalize_or(DVec3::Y);
-            // Far enough to differ from the position in 32 bits.
             let target = position + forward * position.abs().max_element().max(1.0);
             let name = if camera.name.is_empty() {
                 node.name.clone()
@@ -125,9 +124,9 @@ fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
                 camera.name.clone()
             };
             let camera = Camera {
-                position: position.as_vec3(),
-                look_at: target.as_vec3(),
-                up: up.as_vec3(),
+                position,
+                look_at: target,
+                up,
                 projection: camera.projection,
                 near: camera.near,
                 far: camera.far,

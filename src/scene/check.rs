@@ -8,7 +8,8 @@ use crate::material::{Material, Model};
 use crate::mesh::Mesh;
 use crate::texture::{Pixels, Texture};
 use glam::Vec3;
-use std::f32::consts::{FRAC_PI_2, PI};
+use std::f32::consts::FRAC_PI_2;
+use std::f64::consts::PI;
 
 /// The first thing that is wrong with a description.
 pub(super) fn check(scene: &SceneDescription) -> Result<(), SceneError> {
@@ -59,20 +60,15 @@ pub(super) fn check(scene: &SceneDescription) -> Result<(), SceneError> {
 
 fn check_camera(camera: &Camera) -> Result<(), SceneError> {
     let what = || "camera".to_owned();
-    finite(what, "position", camera.position.to_array())?;
-    finite(what, "look_at", camera.look_at.to_array())?;
-    direction(what, "up", camera.up)?;
+    finite(what, "position", camera.position.as_vec3().to_array())?;
+    finite(what, "look_at", camera.look_at.as_vec3().to_array())?;
+    direction(what, "up", camera.up.as_vec3())?;
     if camera.position == camera.look_at {
         return Err(SceneError::LooksNowhere);
     }
-    let angle = |field, fov| {
-        in_range(
-            what,
-            field,
-            fov,
-            fov > 0.0 && fov < PI,
-            "an angle above 0 and below 180 degrees",
-        )
+    let angle = |field, fov: f64| {
+        let expected = "an angle above 0 and below 180 degrees";
+        in_range(what, field, fov as f32, fov > 0.0 && fov < PI, expected)
     };
     match camera.projection {
         Projection::Perspective { fov: Fov::X(x) } => angle("fov_x", x)?,

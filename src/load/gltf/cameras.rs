@@ -35,7 +35,7 @@ fn one(camera: &Camera, place: &str, warnings: &mut Warnings) -> Result<ModelCam
                     "its yfov is {fov}, expected an angle above 0 and below π"
                 ));
             }
-            let fov = Fov::Y(fov);
+            let fov = Fov::Y(f64::from(fov));
             (Projection::Perspective { fov }, lens.znear, lens.zfar)
         }
         (Checked::Valid(Type::Orthographic), _, Some(lens)) => {

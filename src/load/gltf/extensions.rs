@@ -6,6 +6,7 @@ use crate::Error;
 use crate::load::ExtensionFacts;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
+use std::collections::HashSet;
 
 /// The extensions that luch honours.
 const HONOURED: [&str; 3] = [
@@ -31,20 +32,20 @@ pub(super) fn check(
         .filter(|name| !HONOURED.contains(name))
         .collect();
     if let Some(first) = missing.first() {
-        let which = if missing.len() == 1 {
-            "which is"
-        } else {
-            "which are"
+        let (which, way_out) = match missing.len() {
+            1 => ("which is", way_out(first)),
+            _ => ("which are", "re-export without them"),
         };
         let names: Vec<String> = missing.iter().take(8).map(|name| one_line(name)).collect();
         return Err(Error::Unsupported {
             file: document.file.clone(),
             what: format!("needs {}, {which} not supported", names.join(" and ")),
-            way_out: way_out(first).into(),
+            way_out: way_out.into(),
         });
     }
+    let required: HashSet<&String> = root.extensions_required.iter().collect();
+    let mut known = HashSet::new();
     let mut facts: Vec<ExtensionFacts> = Vec::new();
-    let mut known = std::collections::HashSet::new();
     for name in root.extensions_used.iter().chain(&root.extensions_required) {
         if !known.insert(name) {
             continue;
@@ -55,7 +56,7 @@ pub(super) fn check(
         }
         facts.push(ExtensionFacts {
             name: name.clone(),
-            required: root.extensions_required.contains(name),
+            required: required.contains(name),
             honoured,
         });
     }

@@ -31,8 +31,10 @@ pub(super) struct Geometry {
     pub(super) points: usize,
     /// Line segments that are not drawn.
     pub(super) lines: usize,
+    /// Triangles that are left out, since a position of theirs is no number.
+    not_finite: usize,
     /// The first extension that holds geometry which is not drawn.
-    pub(super) compressed_by: Option<&'static str>,
+    compressed_by: Option<&'static str>,
 }
 
 /// What tells primitives apart, but for their material.
@@ -130,8 +132,11 @@ impl Geometry {
         match drawn {
             Drawn::Points(count) => self.points += count,
             Drawn::Lines(count) => self.lines += count,
-            Drawn::Triangles(mesh) if mesh.triangles.is_empty() => {}
-            Drawn::Triangles(mut mesh) => {
+            Drawn::Triangles(mut mesh, left_out) => {
+                self.not_finite += left_out;
+                if mesh.triangles.is_empty() {
+                    return None;
+                }
                 self.triangles += mesh.triangles.len();
                 mesh.name = name.clone().unwrap_or_default();
                 self.meshes.push(mesh);
@@ -196,10 +201,14 @@ fn warn_of_missing_coordinates(
 /// The error for a file of which nothing can be seen.
 pub(super) fn nothing_to_draw(document: &Document, geometry: &Geometry) -> Error {
     let Some(extension) = geometry.compressed_by else {
-        return document.malformed(
-            "",
-            "has nothing to draw: no node of its scene shows a triangle",
-        );
+        let what = if geometry.not_finite > 0 {
+            "its triangles have positions that are no numbers"
+        } else if geometry.points + geometry.lines > 0 {
+            "it shows points and lines only, which are not supported"
+        } else {
+            "no node of its scene shows a triangle"
+        };
+        return document.malformed("", format!("has nothing to draw: {what}"));
     };
     Error::Unsupported {
         file: document.file.clone(),

@@ -124,6 +124,10 @@ fn roots(
 ) -> Result<Vec<usize>, Error> {
     let root = &document.root;
     let scene = match root.scene {
+        Some(_) if root.scenes.is_empty() => {
+            warnings.add("names a scene and has none: every node without a parent is drawn");
+            None
+        }
         Some(index) => Some(document.checked("", "scene", index.value(), root.scenes.len())?),
         None => (!root.scenes.is_empty()).then_some(0),
     };

@@ -6,7 +6,7 @@ use super::buffers::Buffers;
 use super::document::Document;
 use super::primitive_modes;
 use crate::Error;
-use crate::load::tangents;
+use crate::load::tangents::{self, TooCrowded};
 use crate::mesh::Mesh;
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::accessor::Type;
@@ -24,8 +24,8 @@ pub(super) struct Reader<'a> {
 
 /// What a primitive draws.
 pub(super) enum Drawn {
-    /// Triangles, perhaps none.
-    Triangles(Mesh),
+    /// Triangles, perhaps none, and how many were left out since a position of theirs is no number.
+    Triangles(Mesh, usize),
     /// So many points, which luch does not draw.
     Points(usize),
     /// So many line segments, which luch does not draw.
@@ -49,7 +49,7 @@ impl Reader<'_> {
         let Some(positions) = self.attribute(&Semantic::Positions, "POSITION", &[Type::Vec3], 0)?
         else {
             warnings.add(format!("{}: has no POSITION and is not drawn", self.place));
-            return Ok(Drawn::Triangles(Mesh::default()));
+            return Ok(Drawn::Triangles(Mesh::default(), 0));
         };
         let corners = self.corners(&positions, budget)?;
         let left_over = primitive_modes::left_over(mode, corners.len());
@@ -68,13 +68,9 @@ impl Reader<'_> {
         let before = triangles.len();
         let position = |i: usize| Vec3::from(positions.floats::<3>(i));
         triangles.retain(|corners| corners.iter().all(|&i| position(i as usize).is_finite()));
-        warnings.add_times(
-            format!(
-                "{}: a triangle with a position that is no number is not drawn",
-                self.place
-            ),
-            before - triangles.len(),
-        );
+        let left_out = before - triangles.len();
+        let problem = "a triangle with a position that is no number is not drawn";
+        warnings.add_times(format!("{}: {problem}", self.place), left_out);
         let kept = Kept::of(&mut triangles, positions.count);
         self.spend(budget, kept.count())?;
         let mut mesh = Mesh {
@@ -90,7 +86,7 @@ impl Reader<'_> {
         if let Some(set) = tangent_set {
             mesh = self.tangents(mesh, &kept, positions.count, usize::from(set), warnings)?;
         }
-        Ok(Drawn::Triangles(mesh))
+        Ok(Drawn::Triangles(mesh, left_out))
     }
 
     /// Normals, texture coordinates and colours.
@@ -121,8 +117,11 @@ impl Reader<'_> {
             let has_alpha = colors.components == 4;
             mesh.colors = kept.gather(|i| {
                 let [r, g, b, a] = colors.floats::<4>(i);
-                // Not a number is black: it multiplies.
-                [r, g, b, if has_alpha { a } else { 1.0 }].map(|c| c.max(0.0).min(super::BRIGHTEST))
+                [r, g, b, if has_alpha { a } else { 1.0 }].map(|channel| {
+                    // What is no number is black: it multiplies.
+                    let channel = if channel.is_nan() { 0.0 } else { channel };
+                    channel.clamp(0.0, super::BRIGHTEST)
+                })
             });
         }
         Ok(())
@@ -153,13 +152,13 @@ impl Reader<'_> {
             ));
             return Ok(mesh);
         }
-        Ok(tangents::with_tangents(mesh, set).unwrap_or_else(|mesh| {
+        if let Err(TooCrowded) = tangents::add(&mut mesh, set) {
             warnings.add(format!(
                 "{}: too many corners meet in one point for tangents, so that its normal map is ignored",
                 self.place
             ));
-            mesh
-        }))
+        }
+        Ok(mesh)
     }
 
     /// An attribute with at least `count` elements, if the primitive has it.

@@ -202,15 +202,16 @@ fn wrap(mode: Checked<WrappingMode>) -> Wrap {
     }
 }
 
-/// The file's path, or the image's name.
+/// The file's path, or the image's name; `image 3` where it has neither.
 fn image_name(document: &Document, index: usize) -> String {
     let image = document.root.images.get(index);
     let path = image
         .and_then(|image| image.uri.as_deref())
         .filter(|uri| !uri.starts_with("data:"));
-    match path {
-        Some(path) if !path.is_empty() => format!("image \"{}\"", one_line(path)),
-        _ => named("image", index, image.and_then(|image| image.name.as_ref())),
+    let name = image.and_then(|image| image.name.as_deref());
+    match path.or(name) {
+        Some(name) if !name.is_empty() => one_line(name),
+        _ => format!("image {index}"),
     }
 }
 

@@ -69,20 +69,20 @@ fn only_model_camera(table: &Table<'_>) -> Result<(), Error> {
 }
 
 fn given(table: &Table<'_>) -> Result<Camera, Error> {
-    let position = table.required("position", &POINT)?.as_vec3();
-    let look_at = table.required("look_at", &POINT)?.as_vec3();
+    let position = table.required("position", &POINT)?;
+    let look_at = table.required("look_at", &POINT)?;
     if look_at == position {
         let problem = "look_at in [camera] equals position, so that it looks nowhere; move one";
         return Err(table.error("look_at", problem));
     }
-    let up = table.or("up", &DIRECTION, Vec3::Y)?;
+    let up = table.or("up", &DIRECTION, Vec3::Y)?.as_dvec3();
     let fov_x = table.optional("fov_x", &FIELD_OF_VIEW)?;
     let fov_y = table.optional("fov_y", &FIELD_OF_VIEW)?;
     let fov = match (fov_x, fov_y) {
         (Some(x), Some(y)) => Fov::Both(x, y),
         (Some(x), None) => Fov::X(x),
         (None, Some(y)) => Fov::Y(y),
-        (None, None) => Fov::Y(40f64.to_radians() as f32),
+        (None, None) => Fov::Y(40f64.to_radians()),
     };
     let near = table.or("near", &NOT_NEGATIVE, 0.0)?;
     let far = table.or("far", &FAR, f32::INFINITY)?;

@@ -43,9 +43,13 @@ pub(super) const SHARE: Kind<f32> = Kind {
 };
 
 /// A field of view, in radians.
-pub(super) const FIELD_OF_VIEW: Kind<f32> = Kind {
+pub(super) const FIELD_OF_VIEW: Kind<f64> = Kind {
     expected: "an angle above 0 and below 180 degrees",
-    read: |value| angle(value).filter(|&angle| angle > 0.0 && angle < PI),
+    read: |value| {
+        let angle = finite(value).map(f64::to_radians);
+        // Half a picture's width is the tangent of half of it: not one of 1e9.
+        angle.filter(|&angle| angle > 0.0 && (angle as f32) < PI)
+    },
 };
 
 /// Half of a spot's opening, in radians.

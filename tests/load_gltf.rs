@@ -1,0 +1,8 @@
+//! glTF files, written by each test: what they say is what the model has, and every wrong one has its own words.
+
+mod facts;
+mod file;
+mod geometry;
+mod materials;
+mod nodes;
+mod wrong;
