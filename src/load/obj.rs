@@ -20,7 +20,9 @@ mod map;
 mod materials;
 mod meshes;
 mod mtl;
+mod numbers;
 mod polygon;
+mod reader;
 mod text;
 mod textures;
 
@@ -253,6 +255,10 @@ fn add_shapes(model: &mut Model, geometry: &Geometry, material_of: &[u32]) {
             shape.parts.push(part);
         }
     }
+    model.warnings.add_times(
+        "a face of very many corners is not convex and may be cut wrongly",
+        maker.fans(),
+    );
     tell(mended, &mut model.warnings);
 }
 

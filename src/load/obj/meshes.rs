@@ -87,6 +87,11 @@ impl<'a> MeshMaker<'a> {
         (mesh, mended)
     }
 
+    /// How many faces of all meshes had too many corners to be cut rightly.
+    pub(super) fn fans(&self) -> usize {
+        self.triangulator.fans()
+    }
+
     /// Adds a face's triangles; how many are left out.
     fn add_face(&mut self, mesh: &mut Mesh, face: u32, has_normals: bool) -> usize {
         let geometry = self.geometry;
