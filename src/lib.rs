@@ -14,10 +14,16 @@ pub mod material;
 pub mod shade;
 pub mod texture;
 
+pub mod framing;
+pub mod generate;
 pub mod mesh;
 pub mod scene;
 
+pub mod accel;
+
 pub mod film;
+pub mod render;
+pub mod whitted;
 
 pub mod load;
 pub mod output;

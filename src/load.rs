@@ -9,10 +9,12 @@ mod files;
 mod images;
 mod model;
 mod tangents;
+mod viewpoint;
 mod warnings;
 
 pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
 pub use model::{ExtensionFacts, Facts, Model, ModelCamera, ModelMesh, Node, Part, TextureFacts};
+pub use viewpoint::{CameraChoice, Choices, Viewpoint};
 pub use warnings::{Warning, Warnings};
 
 use crate::Error;

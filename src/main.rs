@@ -1,2 +1,9 @@
-//! luch
-fn main() {}
+//! The program: everything it does is in the library `luch`, everything it says is in [`cli`].
+
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run()
+}

@@ -182,4 +182,27 @@ impl Material {
         ];
         of_model.into_iter().chain(of_all).flatten()
     }
+
+    /// Every use of a texture, to be changed.
+    pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut TextureUse> {
+        let of_model: [Option<&mut TextureUse>; 3] = match &mut self.model {
+            Model::Phong(m) => [
+                m.diffuse.texture.as_mut(),
+                m.specular.texture.as_mut(),
+                None,
+            ],
+            Model::MetallicRoughness(m) => [
+                m.base_color.texture.as_mut(),
+                m.metallic_roughness.as_mut(),
+                m.occlusion.texture.as_mut(),
+            ],
+            Model::Unlit { color } => [color.texture.as_mut(), None, None],
+        };
+        let of_all = [
+            self.emission.texture.as_mut(),
+            self.alpha.coverage.texture.as_mut(),
+            self.normal_map.as_mut().map(|map| &mut map.texture),
+        ];
+        of_model.into_iter().chain(of_all).flatten()
+    }
 }

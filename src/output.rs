@@ -1,1 +1,117 @@
 //! The door out: from a film to a file.
+
+mod destination;
+mod display;
+mod exr;
+mod png;
+mod rows;
+mod transfer;
+
+pub use destination::Destination;
+pub use display::Display;
+
+use crate::Error;
+use crate::film::{BEAUTY, Film};
+use std::io::Write;
+use std::path::Path;
+
+/// What kind of file a picture becomes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// For displays: 8 or 16 bits, sRGB, the beauty alone.
+    Png,
+    /// For compositing: linear light, every layer of the film.
+    Exr,
+}
+
+impl Format {
+    /// The format that `path`'s extension names, in upper or lower case.
+    ///
+    /// # Errors
+    ///
+    /// It has no extension, or one that names no format luch writes.
+    pub fn of(path: &Path) -> Result<Format, Error> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("png") => Ok(Format::Png),
+            Some("exr") => Ok(Format::Exr),
+            _ => Err(Error::Unsupported {
+                file: path.to_owned(),
+                what: "its name does not end in .png or .exr".into(),
+                way_out: "give it one of these".into(),
+            }),
+        }
+    }
+}
+
+/// How a film becomes a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Options {
+    /// How light becomes a display's colours. PNG only.
+    pub display: Display,
+    /// In stops: light is multiplied by two to this power before the display transform. PNG only.
+    pub exposure: f32,
+    /// PNG only.
+    pub bit_depth: BitDepth,
+    /// What the attribute `comments` says, as a rule the command line. EXR only.
+    pub comments: Option<String>,
+}
+
+/// Bits a channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BitDepth {
+    /// What displays show.
+    #[default]
+    Eight,
+    /// For pictures that are worked on.
+    Sixteen,
+}
+
+/// Writes `film` to `out`, which messages call `name`: for standard output. [`Destination`] is for files.
+///
+/// # Errors
+///
+/// `out` refuses, or the film is none: it has no pixels, too many for a file, no beauty, or a layer without all its
+/// values.
+pub fn encode(
+    film: &Film,
+    format: Format,
+    options: &Options,
+    name: &Path,
+    out: &mut dyn Write,
+) -> Result<(), Error> {
+    check(film).map_err(|problem| Error::malformed(name, "", problem))?;
+    match format {
+        Format::Png => png::write(film, options, out),
+        Format::Exr => exr::write(film, options.comments.as_deref(), out),
+    }
+    .map_err(Error::io(name, "write"))
+}
+
+/// As many pixels as an EXR's windows span in either direction.
+const MAX_SIDE: u32 = i32::MAX as u32 / 2;
+
+/// Finds what keeps a film from being a picture: past this, every row of every layer is there.
+fn check(film: &Film) -> Result<(), String> {
+    let (width, height) = (film.width, film.height);
+    let sides = 1..=MAX_SIDE;
+    if !sides.contains(&width) || !sides.contains(&height) {
+        return Err(format!(
+            "the film is {width} x {height} pixels, expected 1 to {MAX_SIDE} each way"
+        ));
+    }
+    if film.layer(BEAUTY.channels).is_none() {
+        return Err("the film has no beauty, expected a layer R, G, B, A".into());
+    }
+    for layer in &film.layers {
+        let expected = u64::from(width) * u64::from(height) * layer.channels.len() as u64;
+        let found = layer.values.len() as u64;
+        if found != expected {
+            return Err(format!(
+                "the film has {found} values in its layer {:?}, expected {expected}",
+                layer.channels
+            ));
+        }
+    }
+    Ok(())
+}

@@ -38,8 +38,8 @@ impl Ray {
     ///
     /// `normal` is the surface's own (geometric) unit normal, on either side; `error` bounds how far `point` may lie
     /// from the true surface, in the scene's unit. The origin moves off the surface along the normal, to the side
-    /// that `direction` goes to, by four times that error: wide enough for the rounding of the next intersection
-    /// test, which is of the same order. (Wächter and Binder, "A Fast and Robust Method for Avoiding
+    /// that `direction` goes to, by twice that error: wide enough for the rounding of the next intersection test,
+    /// which is of the same order. (Wächter and Binder, "A Fast and Robust Method for Avoiding
     /// Self-Intersection", Ray Tracing Gems, ch. 6, has the idea; the bound here is each primitive's own.)
     pub fn leaving(point: Vec3, normal: Vec3, error: f32, direction: Vec3, t_max: f32) -> Ray {
         let side = if normal.dot(direction) < 0.0 {
@@ -47,7 +47,13 @@ impl Ray {
         } else {
             1.0
         };
-        Ray::new(point + normal * (side * 4.0 * error), direction, 0.0, t_max)
+        // Not from 0: at the very origin of the world the error is 0, and the surface would be met at once.
+        Ray::new(
+            point + normal * (side * 2.0 * error),
+            direction,
+            f32::MIN_POSITIVE,
+            t_max,
+        )
     }
 
     /// `R(t)` (paper, eq. 6).

@@ -1,10 +1,11 @@
 //! The world: what there is, checked once and read-only afterwards.
 
 mod check;
+mod error;
 mod layout;
 mod surface;
 
-pub use check::SceneError;
+pub use error::SceneError;
 pub use layout::{InstanceSpace, PlacedInstance, Primitive};
 pub use surface::Surface;
 

@@ -2,7 +2,7 @@
 
 use crate::color::{Rgb, srgb_to_linear};
 use crate::geometry::Plane;
-use glam::{Mat3, Vec2, Vec3};
+use glam::{DVec3, Mat3, Vec2, Vec3};
 use std::sync::{Arc, LazyLock};
 
 /// Pixels of four channels, top row first, `width * height` of them.
@@ -182,23 +182,21 @@ impl Checker {
     /// Whether `position` lies on a square of the checker's colour: `floor(a/size) + floor(b/size)` is odd, where `a`
     /// and `b` are the position's coordinates from the plane's point along two axes in the plane: the world axes least
     /// aligned with the normal (the earlier of equals), in x, y, z order, projected onto the plane.
-    pub fn covers(&self, plane: &Plane, position: Vec3) -> bool {
+    pub fn covers(&self, plane: &Plane, position: DVec3) -> bool {
         let [e1, e2] = in_plane_axes(plane.normal);
-        let p = position - plane.point;
-        let (a, b) = (
-            libm::floorf(p.dot(e1) / self.size),
-            libm::floorf(p.dot(e2) / self.size),
-        );
-        (a + b).rem_euclid(2.0) == 1.0
+        let p = position - plane.point.as_dvec3();
+        let cell = |axis: DVec3| libm::floor(p.dot(axis) / f64::from(self.size));
+        (cell(e1) + cell(e2)).rem_euclid(2.0) == 1.0
     }
 }
 
-fn in_plane_axes(n: Vec3) -> [Vec3; 2] {
-    let mut axes = [Vec3::X, Vec3::Y, Vec3::Z];
+fn in_plane_axes(n: Vec3) -> [DVec3; 2] {
+    let n = n.as_dvec3();
+    let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
     // Stable: of equals the earlier axis counts as less aligned.
     axes.sort_by(|p, q| n.dot(*p).abs().total_cmp(&n.dot(*q).abs()));
     let [least, second, _] = axes;
-    let ordered = if least.dot(Vec3::new(0.0, 1.0, 2.0)) < second.dot(Vec3::new(0.0, 1.0, 2.0)) {
+    let ordered = if least.dot(DVec3::new(0.0, 1.0, 2.0)) < second.dot(DVec3::new(0.0, 1.0, 2.0)) {
         [least, second]
     } else {
         [second, least]
@@ -289,7 +287,7 @@ mod tests {
             point: Vec3::new(0.0, -1.0, 0.0),
             normal: Vec3::Y,
         };
-        let at = |x, z| checker.covers(&floor, Vec3::new(x, -1.0, z));
+        let at = |x, z| checker.covers(&floor, DVec3::new(x, -1.0, z));
         assert_eq!(
             [at(0.5, 0.5), at(2.5, 0.5), at(2.5, 2.5), at(-0.5, 0.5)],
             [false, true, false, true]
@@ -298,9 +296,9 @@ mod tests {
 
     #[test]
     fn axes_of_a_plane_keep_the_order_x_y_z() {
-        assert_eq!(in_plane_axes(Vec3::Y), [Vec3::X, Vec3::Z]);
-        assert_eq!(in_plane_axes(Vec3::Z), [Vec3::X, Vec3::Y]);
-        assert_eq!(in_plane_axes(Vec3::X), [Vec3::Y, Vec3::Z]);
+        assert_eq!(in_plane_axes(Vec3::Y), [DVec3::X, DVec3::Z]);
+        assert_eq!(in_plane_axes(Vec3::Z), [DVec3::X, DVec3::Y]);
+        assert_eq!(in_plane_axes(Vec3::X), [DVec3::Y, DVec3::Z]);
         // All equally aligned: x and y are the less aligned ones.
         let [e1, e2] = in_plane_axes(Vec3::ONE.normalize());
         assert!(e1.x > 0.5 && e2.y > 0.5);

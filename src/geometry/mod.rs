@@ -99,11 +99,8 @@ pub struct SurfacePoint {
     pub normal: Vec3,
 }
 
-/// Half the distance between 1 and the next number: the greatest relative error of one rounding.
-const ROUNDING: f32 = f32::EPSILON / 2.0;
-
-/// A bound on the distance of a point from its surface after about sixteen roundings of numbers as great as
-/// `magnitude`: 1e-6 of it.
+/// A bound on the distance from its surface of a point whose coordinates, as great as `magnitude`, went through a few
+/// roundings: twice the distance between neighbouring numbers there.
 fn error_bound(magnitude: f32) -> f32 {
-    16.0 * ROUNDING * magnitude
+    2.0 * f32::EPSILON * magnitude
 }

@@ -2,7 +2,7 @@
 
 use super::{SurfacePoint, error_bound};
 use crate::ray::Ray;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// All points `P` with `n . (P - Q) = 0` (paper, eq. 7).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,22 +17,30 @@ impl Plane {
     /// The `t` at which the ray meets the plane: `t = n . (Q - C) / (n . d)` (paper, eq. 8), where the ray admits
     /// it. A ray parallel to the plane misses it, also one that runs inside it.
     pub fn intersect(&self, ray: &Ray, primitive: u32) -> Option<f32> {
-        let t = self.normal.dot(self.point - ray.origin) / self.normal.dot(ray.direction);
+        let t = self.double_t(ray) as f32;
         // False for the 0/0 of a ray inside the plane, and for the x/0 of a parallel one.
         (t.is_finite() && ray.admits(t, primitive)).then_some(t)
     }
 
-    /// The point at `t` along `ray`, dropped back onto the plane.
-    pub fn surface_point(&self, ray: &Ray, t: f32) -> SurfacePoint {
-        let p = ray.point_at(t);
-        let position = p - self.normal * self.normal.dot(p - self.point);
-        let magnitude = position
-            .abs()
-            .max_element()
-            .max(self.point.abs().max_element());
+    /// In `f64`: near the horizon neighbouring rays land far apart.
+    fn double_t(&self, ray: &Ray) -> f64 {
+        let n = self.normal.as_dvec3();
+        let to_plane = self.point.as_dvec3() - ray.origin.as_dvec3();
+        n.dot(to_plane) / n.dot(ray.direction.as_dvec3())
+    }
+
+    /// Where the ray meets the plane, before it is rounded to 32 bits.
+    pub fn double_position(&self, ray: &Ray) -> DVec3 {
+        ray.origin.as_dvec3() + ray.direction.as_dvec3() * self.double_t(ray)
+    }
+
+    /// The point where `ray` meets the plane.
+    pub fn surface_point(&self, ray: &Ray) -> SurfacePoint {
+        let position = self.double_position(ray).as_vec3();
+        let error = error_bound(position.abs().max_element());
         SurfacePoint {
             position,
-            error: error_bound(magnitude),
+            error,
             normal: self.normal,
         }
     }
@@ -76,7 +84,6 @@ mod tests {
             0.0,
             f32::INFINITY,
         );
-        let t = FLOOR.intersect(&ray, 0).unwrap_or(f32::NAN);
-        assert_eq!(FLOOR.surface_point(&ray, t).position.y, -1.0);
+        assert_eq!(FLOOR.surface_point(&ray).position.y, -1.0);
     }
 }

@@ -1,14 +1,16 @@
 //! What a file holds, before a choice of camera and time makes a scene of it.
 
+use super::viewpoint::{self, Choices, Viewpoint};
 use super::{Model, Warnings};
+use crate::Error;
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::geometry::{Plane, Sphere};
 use crate::light::Light;
 use crate::material::Material;
-use crate::scene::Object;
+use crate::scene::{Instance, Object, Scene, SceneDescription};
 use crate::shade::Shading;
-use glam::DAffine3;
+use glam::{DAffine3, Vec3};
 use std::path::PathBuf;
 
 /// Everything a file holds.
@@ -78,6 +80,36 @@ pub struct PictureDefaults {
 }
 
 impl Asset {
+    /// The scene that a viewpoint sees, `time` seconds into the asset's animation, and what was chosen where neither
+    /// the file nor the user said. Animation is not read yet, so every time shows the same.
+    ///
+    /// # Errors
+    ///
+    /// There is no camera of the wanted name, or what the file says makes no scene.
+    pub fn scene(&self, _time: f64, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
+        let mut choices = Choices::default();
+        let placeholder = Camera::looking_at(Vec3::Z, Vec3::ZERO, Vec3::Y, 1.0);
+        let mut description = SceneDescription {
+            materials: self.materials.clone(),
+            spheres: self.spheres.clone(),
+            planes: self.planes.clone(),
+            lights: self.lights.clone(),
+            ..SceneDescription::empty(placeholder)
+        };
+        self.models
+            .iter()
+            .for_each(|placed| placed.add_to(&mut description));
+        description.camera = viewpoint::camera(self, viewpoint, &description, &mut choices)?;
+        viewpoint::light(self, &mut description, &mut choices);
+        description.background = viewpoint::background(self, viewpoint, &mut choices);
+        let in_file = |source| Error::Scene {
+            file: self.file.clone(),
+            source,
+        };
+        let scene = Scene::new(description).map_err(in_file)?;
+        Ok((scene, choices))
+    }
+
     /// A model by itself, at its own place.
     pub(super) fn of_model(model: Model) -> Asset {
         Asset {
@@ -98,6 +130,55 @@ impl Asset {
             background: None,
             ambient: None,
             picture: PictureDefaults::default(),
+        }
+    }
+}
+
+impl PlacedModel {
+    /// Adds what the model's nodes place.
+    fn add_to(&self, scene: &mut SceneDescription) {
+        let model = &self.model;
+        let [first_material, first_texture, first_mesh] = [
+            scene.materials.len(),
+            scene.textures.len(),
+            scene.meshes.len(),
+        ]
+        .map(|length| length as u32);
+        scene.textures.extend_from_slice(&model.textures);
+        scene.meshes.extend_from_slice(&model.meshes);
+        scene
+            .materials
+            .extend(model.materials.iter().map(|material| {
+                let mut material = material.clone();
+                material
+                    .textures_mut()
+                    .for_each(|used| used.texture += first_texture);
+                material
+            }));
+        for (node, to_model) in model.placed_nodes() {
+            let to_world = self.to_world * to_model;
+            if let Some(light) = node.light.and_then(|light| model.lights.get(light)) {
+                let name = if light.name.is_empty() {
+                    &node.name
+                } else {
+                    &light.name
+                };
+                let carried = viewpoint::carried(light, &to_world);
+                scene.lights.push(Light {
+                    name: name.clone(),
+                    ..carried
+                });
+            }
+            let parts = node
+                .shape
+                .and_then(|shape| model.shapes.get(shape))
+                .map_or(&[][..], |shape| &shape.parts);
+            scene.instances.extend(parts.iter().map(|part| Instance {
+                name: node.name.clone(),
+                mesh: first_mesh + part.mesh,
+                material: self.material.unwrap_or(first_material + part.material),
+                to_world,
+            }));
         }
     }
 }

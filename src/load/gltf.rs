@@ -1,14 +1,138 @@
-//! gltf
+//! glTF 2.0, static: `.gltf` with its buffers and images beside it or inside it, and `.glb`.
+//!
+//! Crate `gltf` gives the typed document; what the document points at is read here, with bounds of our own: the crate
+//! trusts files, and luch opens any. Each extension has a file of its own, which `extensions.rs` lists.
+//!
+//! Parts of a file without a name are called by their index in it, from 0, as the file itself does.
 
-use super::Model;
+mod accessors;
+mod base64;
+mod buffers;
+mod cameras;
+mod container;
+mod document;
+mod emissive_strength;
+mod extensions;
+mod lights_punctual;
+mod materials;
+mod materials_unlit;
+mod meshes;
+mod nodes;
+mod primitive_modes;
+mod primitives;
+mod textures;
+mod uri;
+
+use super::{Facts, Model, Warnings, files};
 use crate::Error;
+use buffers::Buffers;
+use document::{Document, one_line};
+use nodes::Contents;
 use std::path::Path;
+use textures::Textures;
+
+/// The greatest factor that is taken as it is: products of two of these are finite.
+const BRIGHTEST: f32 = 1e18;
 
 /// Opens a model.
 ///
+/// Light intensities are divided by π, since luch's are what a white matt surface shows (see
+/// [`Light`](crate::light::Light)).
+///
 /// # Errors
 ///
-/// Not yet.
+/// The file or one of its buffers cannot be read or is malformed, it requires an extension that luch lacks, or it has
+/// nothing to draw. An image that cannot be read is a warning.
 pub fn open(path: &Path) -> Result<Model, Error> {
-    Err(Error::malformed(path, "", "not yet"))
+    let bytes = files::read(path)?;
+    let mut warnings = Warnings::default();
+    let container = container::open(path, &bytes, &mut warnings)?;
+    let document = Document::parse(path, container.json, &mut warnings)?;
+    let extensions = extensions::check(&document, &mut warnings)?;
+    let buffers = Buffers::read(&document, container.binary)?;
+
+    let used = materials::textures_used(&document);
+    let mut textures = Textures::decode(&document, &buffers, &used, &mut warnings);
+    let materials = materials::all(&document, &mut textures, &mut warnings)?;
+    let geometry = meshes::all(&document, &buffers, &materials, &mut warnings)?;
+    let (cameras, camera_indices) = compact(cameras::all(&document, &mut warnings));
+    let (lights, light_indices) = compact(lights_punctual::all(&document, &mut warnings));
+    let contents = Contents {
+        meshes: geometry.shapes.len(),
+        cameras: &camera_indices,
+        lights: &light_indices,
+    };
+    let tree = nodes::read(&document, &contents, &mut warnings)?;
+
+    let root = &document.root;
+    let name = |name: &Option<String>| name.clone().unwrap_or_default();
+    let facts = Facts {
+        format: format(&document),
+        scenes: root.scenes.iter().map(|scene| name(&scene.name)).collect(),
+        triangles: geometry.triangles,
+        points: geometry.points,
+        lines: geometry.lines,
+        textures: textures.facts,
+        animations: root.animations.iter().map(|a| name(&a.name)).collect(),
+        extensions,
+    };
+    let own = [path.to_owned()];
+    let mut model = Model {
+        file: path.to_owned(),
+        materials,
+        textures: textures.textures,
+        meshes: Vec::new(),
+        shapes: Vec::new(),
+        nodes: tree.nodes,
+        roots: tree.roots,
+        cameras,
+        lights,
+        facts,
+        warnings,
+        files: own
+            .into_iter()
+            .chain(buffers.files.clone())
+            .chain(textures.files)
+            .collect(),
+    };
+    let shows = |shape: usize| {
+        geometry
+            .shapes
+            .get(shape)
+            .is_some_and(|s| !s.parts.is_empty())
+    };
+    if !model
+        .placed_nodes()
+        .iter()
+        .any(|(node, _)| node.shape.is_some_and(shows))
+    {
+        return Err(meshes::nothing_to_draw(&document, &geometry));
+    }
+    (model.meshes, model.shapes) = (geometry.meshes, geometry.shapes);
+    Ok(model)
+}
+
+/// As in "glTF 2.0 (Blender 4.2)".
+fn format(document: &Document) -> String {
+    let asset = &document.root.asset;
+    let version = one_line(&asset.version);
+    match &asset.generator {
+        Some(generator) => format!("glTF {version} ({})", one_line(generator)),
+        None => format!("glTF {version}"),
+    }
+}
+
+/// What is there, and where each went.
+fn compact<T>(all: Vec<Option<T>>) -> (Vec<T>, Vec<Option<usize>>) {
+    let mut kept = Vec::new();
+    let indices = all
+        .into_iter()
+        .map(|one| {
+            one.map(|one| {
+                kept.push(one);
+                kept.len() - 1
+            })
+        })
+        .collect();
+    (kept, indices)
 }

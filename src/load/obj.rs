@@ -239,7 +239,7 @@ fn add_shapes(model: &mut Model, geometry: &Geometry, material_of: &[u32]) {
             continue;
         }
         if has_normal_map {
-            tangents::generate(&mut mesh, 0);
+            mesh = tangents::with_tangents(mesh, 0).unwrap_or_else(|mesh| mesh);
         }
         let name = geometry.objects.get(group.object as usize);
         mesh.name = name.cloned().unwrap_or_default();

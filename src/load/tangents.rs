@@ -1,243 +1,253 @@
-//! Tangents as normal maps are baked for (Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited"); crate
-//! `bevy_mikktspace` is named here alone.
+//! MikkTSpace tangents, for meshes with a normal map whose file has none (glTF 2.0, section 3.7.2.1). Alone names
+//! `bevy_mikktspace`.
 //!
-//! That crate walks around a vertex by recursion and compares the triangles there with each other, and compares every
-//! degenerate triangle with every other one. So it never sees degenerate triangles, nor vertices with more than
-//! [`MOST_AROUND`] triangles: these get the tangent of their own triangle.
+//! Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited".
 
 use crate::mesh::Mesh;
-use bevy_mikktspace::{Geometry, Ops, TangentSpace};
+use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
 use glam::{Vec2, Vec3, Vec4};
 use std::collections::HashMap;
 
-/// Triangles around a vertex, for whose tangents they are averaged.
-const MOST_AROUND: u32 = 512;
+/// How many corners may meet in one point. MikkTSpace calls itself once for each, on the thread's stack, and its time
+/// grows with their square; a real mesh has about six.
+const MOST_AT_A_POINT: u32 = 2_000;
 
-/// Vertices that differ in their tangent alone, of which each further one is made without looking for its like.
-const MOST_TWINS: usize = 16;
-
-/// Gives `mesh` tangents along the u of its `uv_set`. A vertex whose triangles disagree becomes several.
+/// `mesh` with tangents along +u of texture coordinates `uv_set`. Vertices whose corners differ in tangent are split.
 ///
-/// Nothing happens to a mesh without normals or without these texture coordinates.
-pub(super) fn generate(mesh: &mut Mesh, uv_set: usize) {
-    let count = mesh.positions.len();
-    let has_uvs = mesh.uvs.get(uv_set).is_some_and(|uvs| uvs.len() == count);
-    if mesh.normals.len() != count || !has_uvs || count == 0 {
-        return;
+/// # Errors
+///
+/// The mesh again, as it was: too many of its corners meet in one point.
+pub(super) fn with_tangents(mesh: Mesh, uv_set: usize) -> Result<Mesh, Mesh> {
+    if most_at_a_point(&mesh) > MOST_AT_A_POINT {
+        return Err(mesh);
     }
-    let tangents = corner_tangents(mesh, uv_set);
-    split_vertices(mesh, &tangents);
-}
-
-/// Three a triangle.
-fn corner_tangents(mesh: &Mesh, uv_set: usize) -> Vec<Vec4> {
-    let mut tangents: Vec<Vec4> = mesh
-        .triangles
-        .iter()
-        .flat_map(|triangle| own_tangents(mesh, uv_set, triangle))
+    // MikkTSpace searches all of a mesh for each triangle that has two corners in one point. No ray meets those.
+    let faces = (0..mesh.triangles.len())
+        .filter(|&triangle| {
+            let [a, b, c] = [0, 1, 2].map(|corner| position(&mesh, triangle, corner));
+            a != b && b != c && c != a
+        })
         .collect();
-    let averaged = averaged_triangles(mesh, uv_set);
-    let mut smooth = Smooth {
-        mesh,
+    let tangents = vec![[Vec4::ZERO; 3]; mesh.triangles.len()];
+    let mut corners = Corners {
+        mesh: &mesh,
         uv_set,
-        averaged: &averaged,
-        tangents: &mut tangents,
+        faces,
+        tangents,
     };
-    // It has no variant of an error.
-    let _ = bevy_mikktspace::generate_tangents(&mut smooth);
-    tangents
-}
-
-/// The triangles that share their vertices' tangents with their neighbours.
-fn averaged_triangles(mesh: &Mesh, uv_set: usize) -> Vec<u32> {
-    let key = |vertex: u32| {
-        let Corner {
-            position: p,
-            normal: n,
-            uv,
-        } = Corner::of(mesh, uv_set, vertex);
-        [p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y].map(f32::to_bits)
-    };
-    let mut around: HashMap<[u32; 8], u32> = HashMap::with_capacity(mesh.positions.len());
-    let mut of_vertex = vec![0; mesh.positions.len()];
-    for &vertex in mesh.triangles.iter().flatten() {
-        *around.entry(key(vertex)).or_default() += 1;
+    // Its error type has no values.
+    let done = generate_tangents(&mut corners);
+    let tangents = corners.tangents;
+    match done {
+        Ok(()) => Ok(split(mesh, &tangents)),
+        Err(_) => Err(mesh),
     }
-    for (vertex, count) in of_vertex.iter_mut().enumerate() {
-        *count = around.get(&key(vertex as u32)).copied().unwrap_or_default();
-    }
-    let is_averaged = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(|vertex| Corner::of(mesh, uv_set, vertex).position);
-        let is_degenerate = a == b || b == c || c == a;
-        let is_crowded = triangle
-            .iter()
-            .any(|&vertex| of_vertex.get(vertex as usize) > Some(&MOST_AROUND));
-        !is_degenerate && !is_crowded
-    };
-    (0u32..)
-        .zip(&mesh.triangles)
-        .filter(|(_, triangle)| is_averaged(triangle))
-        .map(|(index, _)| index)
-        .collect()
 }
 
-/// A vertex of a mesh; neutral where the mesh has none.
-struct Corner {
-    position: Vec3,
-    normal: Vec3,
-    uv: Vec2,
-}
-
-impl Corner {
-    fn of(mesh: &Mesh, uv_set: usize, vertex: u32) -> Corner {
-        let at = vertex as usize;
-        let uvs = mesh.uvs.get(uv_set);
-        Corner {
-            position: mesh.positions.get(at).copied().unwrap_or_default(),
-            normal: mesh.normals.get(at).copied().unwrap_or(Vec3::Z),
-            uv: uvs.and_then(|uvs| uvs.get(at)).copied().unwrap_or_default(),
+fn most_at_a_point(mesh: &Mesh) -> u32 {
+    let mut counts: HashMap<[u32; 3], u32> = HashMap::new();
+    for triangle in 0..mesh.triangles.len() {
+        for corner in 0..3 {
+            let at = position(mesh, triangle, corner)
+                .to_array()
+                .map(f32::to_bits);
+            *counts.entry(at).or_default() += 1;
         }
     }
+    counts.into_values().max().unwrap_or(0)
 }
 
-/// The direction of growing u on a triangle by itself, made square to each corner's normal.
-fn own_tangents(mesh: &Mesh, uv_set: usize, triangle: &[u32; 3]) -> [Vec4; 3] {
-    let [a, b, c] = triangle.map(|vertex| Corner::of(mesh, uv_set, vertex));
-    let (p1, p2) = (b.position - a.position, c.position - a.position);
-    let (t1, t2) = (b.uv - a.uv, c.uv - a.uv);
-    let area = t1.perp_dot(t2);
-    let along = (p1 * t2.y - p2 * t1.y) * 1f32.copysign(area);
-    // v grows downward and green points up, as in `set_tangent`.
-    let sign = if area > 0.0 { -1.0 } else { 1.0 };
-    [a, b, c].map(|corner| squared(along, corner.normal).extend(sign))
-}
-
-/// A unit vector along `t`, square to the unit vector `n`.
-fn squared(t: Vec3, n: Vec3) -> Vec3 {
-    (t - n * n.dot(t))
-        .try_normalize()
-        .unwrap_or_else(|| n.any_orthonormal_vector())
-}
-
-/// What Mikkelsen's algorithm reads and writes.
-struct Smooth<'a> {
+/// The geometry as MikkTSpace asks for it: corner by corner.
+struct Corners<'a> {
     mesh: &'a Mesh,
     uv_set: usize,
-    averaged: &'a [u32],
-    tangents: &'a mut [Vec4],
+    /// The triangles it is told of.
+    faces: Vec<usize>,
+    /// Of all triangles.
+    tangents: Vec<[Vec4; 3]>,
 }
 
-impl Smooth<'_> {
-    fn corner(&self, face: usize, vert: usize) -> Corner {
-        let triangle = self.averaged.get(face).map_or(0, |&index| index as usize);
-        let corners = self.mesh.triangles.get(triangle).unwrap_or(&[0; 3]);
-        let vertex = corners.get(vert).copied().unwrap_or_default();
-        Corner::of(self.mesh, self.uv_set, vertex)
+impl Corners<'_> {
+    fn triangle(&self, face: usize) -> usize {
+        self.faces.get(face).copied().unwrap_or_default()
+    }
+
+    fn vertex(&self, face: usize, corner: usize) -> usize {
+        vertex(self.mesh, self.triangle(face), corner)
     }
 }
 
-/// The platform's arc cosine differs from machine to machine.
-struct SameEverywhere;
+/// The same bits on every machine: the standard library's arc cosine is the platform's.
+struct Libm;
 
-impl Ops for SameEverywhere {
+impl Ops for Libm {
     fn sqrt(x: f32) -> f32 {
         x.sqrt()
     }
 
     fn acos(x: f32) -> f32 {
-        libm::acos(x.into()) as f32
+        libm::acos(f64::from(x)) as f32
     }
 }
 
-impl Geometry<SameEverywhere> for Smooth<'_> {
+impl Geometry<Libm> for Corners<'_> {
     fn num_faces(&self) -> usize {
-        self.averaged.len()
+        self.faces.len()
     }
 
-    fn num_vertices_of_face(&self, _face: usize) -> usize {
+    fn num_vertices_of_face(&self, _: usize) -> usize {
         3
     }
 
-    fn position(&self, face: usize, vert: usize) -> [f32; 3] {
-        self.corner(face, vert).position.into()
+    fn position(&self, face: usize, corner: usize) -> [f32; 3] {
+        position(self.mesh, self.triangle(face), corner).to_array()
     }
 
-    fn normal(&self, face: usize, vert: usize) -> [f32; 3] {
-        self.corner(face, vert).normal.into()
+    fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
+        let normals = &self.mesh.normals;
+        let normal = match normals.get(self.vertex(face, corner)) {
+            Some(&normal) => normal,
+            None => {
+                let [a, b, c] = [0, 1, 2].map(|i| position(self.mesh, self.triangle(face), i));
+                (b - a).cross(c - a).normalize_or_zero()
+            }
+        };
+        // No -0.0: it welds what has the same bits.
+        (normal + Vec3::ZERO).to_array()
     }
 
-    fn tex_coord(&self, face: usize, vert: usize) -> [f32; 2] {
-        self.corner(face, vert).uv.into()
+    fn tex_coord(&self, face: usize, corner: usize) -> [f32; 2] {
+        let uv = self
+            .mesh
+            .uvs
+            .get(self.uv_set)
+            .and_then(|set| set.get(self.vertex(face, corner)));
+        // glTF's v runs down the image, the green of its normal maps up it (section 3.9.3).
+        uv.map_or([0.0; 2], |&Vec2 { x, y }| [x + 0.0, 0.0 - y])
     }
 
-    fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, vert: usize) {
-        let Some(space) = space else { return };
-        let normal = self.corner(face, vert).normal;
-        let [x, y, z, sign] = space.tangent_encoded();
-        let along = Vec3::new(x, y, z);
-        let triangle = self.averaged.get(face).map_or(0, |&index| index as usize);
-        if let Some(tangent) = self.tangents.get_mut(3 * triangle + vert)
-            && along.is_finite()
-            && along != Vec3::ZERO
-        {
-            // The algorithm's v grows upward, ours downward; green is up in both.
-            *tangent = squared(along, normal).extend(-sign);
+    fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
+        let triangle = self.triangle(face);
+        let place = self
+            .tangents
+            .get_mut(triangle)
+            .and_then(|t| t.get_mut(corner));
+        if let (Some(space), Some(place)) = (space, place) {
+            let tangent = Vec4::from(space.tangent_encoded());
+            if tangent.is_finite() {
+                *place = tangent;
+            }
         }
     }
 }
 
-/// Writes a tangent to every vertex; corners of one vertex with different tangents come to be of different vertices.
-fn split_vertices(mesh: &mut Mesh, tangents: &[Vec4]) {
-    const NO_TWIN: u32 = u32::MAX;
-    let mut given: Vec<Option<Vec4>> = vec![None; mesh.positions.len()];
-    let mut twins = vec![NO_TWIN; mesh.positions.len()];
-    let mut triangles = std::mem::take(&mut mesh.triangles);
-    let corners = triangles.iter_mut().flatten();
-    for (vertex, &tangent) in corners.zip(tangents) {
-        let mut at = *vertex;
-        let mut found = None;
-        for _ in 0..MOST_TWINS {
-            let Some(slot) = given.get_mut(at as usize) else {
-                break;
-            };
-            if *slot.get_or_insert(tangent) == tangent {
-                found = Some(at);
-                break;
-            }
-            match twins.get(at as usize) {
-                Some(&next) if next != NO_TWIN => at = next,
-                _ => break,
-            }
-        }
-        *vertex = found.unwrap_or_else(|| {
-            let new = copy_vertex(mesh, *vertex as usize);
-            given.push(Some(tangent));
-            let rest = twins.get(at as usize).copied().unwrap_or(NO_TWIN);
-            twins.push(rest);
-            if let Some(twin) = twins.get_mut(at as usize) {
-                *twin = new;
-            }
-            new
-        });
-    }
-    mesh.triangles = triangles;
-    mesh.tangents = given
-        .into_iter()
-        .map(|tangent| tangent.unwrap_or(Vec4::new(1.0, 0.0, 0.0, 1.0)))
-        .collect();
+fn vertex(mesh: &Mesh, triangle: usize, corner: usize) -> usize {
+    let corners = mesh.triangles.get(triangle).copied().unwrap_or_default();
+    corners.get(corner).map_or(0, |&vertex| vertex as usize)
 }
 
-/// Appends a vertex like number `vertex`.
-fn copy_vertex(mesh: &mut Mesh, vertex: usize) -> u32 {
-    fn copy<T: Copy>(list: &mut Vec<T>, at: usize) {
-        if let Some(&item) = list.get(at) {
-            list.push(item);
+/// Without -0.0: it welds what has the same bits.
+fn position(mesh: &Mesh, triangle: usize, corner: usize) -> Vec3 {
+    let position = mesh.positions.get(vertex(mesh, triangle, corner));
+    position.copied().unwrap_or_default() + Vec3::ZERO
+}
+
+/// `mesh` with one vertex for each pair of an old vertex and a tangent.
+fn split(mesh: Mesh, tangents: &[[Vec4; 3]]) -> Mesh {
+    let mut known: HashMap<(u32, [u32; 4]), u32> = HashMap::new();
+    let mut old_vertices: Vec<usize> = Vec::with_capacity(mesh.positions.len());
+    let mut new = Mesh {
+        name: mesh.name,
+        triangles: mesh.triangles,
+        ..Mesh::default()
+    };
+    for (corners, tangents) in new.triangles.iter_mut().zip(tangents) {
+        for (corner, tangent) in corners.iter_mut().zip(tangents) {
+            let key = (*corner, tangent.to_array().map(f32::to_bits));
+            let next = old_vertices.len() as u32;
+            let old = *corner as usize;
+            *corner = *known.entry(key).or_insert_with(|| {
+                old_vertices.push(old);
+                new.tangents.push(*tangent);
+                next
+            });
         }
     }
-    let new = mesh.positions.len() as u32;
-    copy(&mut mesh.positions, vertex);
-    copy(&mut mesh.normals, vertex);
-    mesh.uvs.iter_mut().for_each(|uvs| copy(uvs, vertex));
-    copy(&mut mesh.colors, vertex);
+    new.positions = picked(&mesh.positions, &old_vertices);
+    new.normals = picked(&mesh.normals, &old_vertices);
+    new.colors = picked(&mesh.colors, &old_vertices);
+    new.uvs = mesh.uvs.map(|set| picked(&set, &old_vertices));
     new
+}
+
+/// What `which` says, where there is anything.
+fn picked<T: Copy>(from: &[T], which: &[usize]) -> Vec<T> {
+    which.iter().filter_map(|&i| from.get(i).copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square in the plane z = 0 whose image stands upright: u to the right, v down.
+    fn square() -> Mesh {
+        let uvs = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].map(Vec2::from);
+        let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        Mesh {
+            positions: positions.map(|[x, y]| Vec3::new(x, y, 0.0)).to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            normals: vec![Vec3::Z; 4],
+            uvs: [uvs.to_vec(), Vec::new()],
+            ..Mesh::default()
+        }
+    }
+
+    #[test]
+    fn the_tangent_runs_along_u_and_the_bitangent_up_the_image() {
+        let mesh = with_tangents(square(), 0).unwrap_or_default();
+        assert_eq!(mesh.tangents, [Vec4::new(1.0, 0.0, 0.0, 1.0); 4]);
+        assert_eq!(mesh.positions, square().positions);
+    }
+
+    #[test]
+    fn a_mirrored_image_turns_the_bitangents_sign() {
+        let mut mirrored = square();
+        for uv in &mut mirrored.uvs[0] {
+            uv.x = -uv.x;
+        }
+        let mesh = with_tangents(mirrored, 0).unwrap_or_default();
+        assert_eq!(mesh.tangents, [Vec4::new(-1.0, 0.0, 0.0, -1.0); 4]);
+    }
+
+    #[test]
+    fn a_flat_mesh_gets_tangents_for_each_face() {
+        let mut bent = square();
+        bent.normals.clear();
+        bent.positions[3].z = 1.0;
+        let mesh = with_tangents(bent, 0).unwrap_or_default();
+        assert_eq!((mesh.positions.len(), mesh.tangents.len()), (6, 6));
+        assert!(mesh.normals.is_empty());
+        for (triangle, corners) in mesh.triangles.iter().enumerate() {
+            let normal = mesh.triangle(triangle as u32).normal();
+            for &corner in corners {
+                assert!(mesh.tangents[corner as usize].truncate().dot(normal).abs() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn a_triangle_without_area_keeps_its_vertices_and_gets_no_tangent() {
+        let mut mesh = square();
+        mesh.triangles.push([0, 0, 1]);
+        let mesh = with_tangents(mesh, 0).unwrap_or_default();
+        let tangent = mesh.tangents[mesh.triangles[2][0] as usize];
+        assert_eq!((mesh.triangles.len(), tangent), (3, Vec4::ZERO));
+    }
+
+    #[test]
+    fn a_crowded_point_is_refused_not_recursed_into() {
+        let mut fan = square();
+        fan.triangles = vec![[0, 1, 2]; 2_001];
+        assert!(with_tangents(fan, 0).is_err());
+    }
 }

@@ -44,7 +44,7 @@ impl Scene {
             Primitive::Sphere(sphere) => {
                 plain(self.spheres[sphere].shape.surface_point(ray, hit.t))
             }
-            Primitive::Plane(plane) => plain(self.planes[plane].shape.surface_point(ray, hit.t)),
+            Primitive::Plane(plane) => plain(self.planes[plane].shape.surface_point(ray)),
             Primitive::Triangle { instance, triangle } => {
                 let instance = &self.instances[instance];
                 corner_mix(
@@ -80,7 +80,10 @@ impl Scene {
             }),
             Primitive::Plane(plane),
         ) = (&material.model, primitive)
-            && checker.covers(&self.planes[plane].shape, point.position)
+            && checker.covers(
+                &self.planes[plane].shape,
+                self.planes[plane].shape.double_position(ray),
+            )
         {
             (reflectance.diffuse, reflectance.ambient) = (checker.color, checker.color);
         }

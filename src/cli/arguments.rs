@@ -1,0 +1,221 @@
+//! What can be said on the command line.
+
+use super::values::{BackgroundValue, Size};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use glam::Vec3;
+use luch::accel::Preset;
+use luch::output::Display;
+use luch::shade::Shading;
+use std::num::NonZeroU8;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  luch render                            the paper's figure 4, into figure-4.png
+  luch render model.glb                  a framed, lit picture, into model.png
+  luch render model.glb -o a.png -o a.exr --size 1920x1080 --samples 16
+  luch render scene.toml -o - | viewer   a PNG to another program
+  luch info model.glb                    what is in a file, and what luch makes of it";
+
+/// A ray tracer: a glTF, OBJ or scene file in, a PNG or EXR out.
+#[derive(Debug, Parser)]
+#[command(name = "luch", version, after_help = EXAMPLES, arg_required_else_help = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Render a model or a scene file to a picture
+    Render(Box<RenderArguments>),
+    /// Tell what is in a file, and what luch makes of it
+    Info(InfoArguments),
+    /// Print completions for a shell
+    #[command(
+        after_help = "Example:\n  luch completions bash > ~/.local/share/bash-completion/completions/luch"
+    )]
+    Completions {
+        /// Which shell
+        shell: clap_complete::Shell,
+    },
+}
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  luch render assets/scenes/figure-4.toml
+  luch render helmet.glb --size 1920x1080 --samples 16 -o helmet.png -o helmet.exr
+  luch render room.gltf --camera \"Front door\" --exposure -1
+  luch render chair.obj --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
+  luch render helmet.glb -o - --json=false | viewer
+
+Exit codes: 0 done, 1 usage or scene, 2 output, 130 interrupted.";
+
+/// Everything `luch render` can be told.
+#[derive(Args, Debug)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub(super) struct RenderArguments {
+    /// A .glb, .gltf, .obj or .toml file; the paper's figure 4 where there is none
+    pub(super) input: Option<PathBuf>,
+
+    /// Where the picture goes: a .png or .exr file, or - for standard output; may be repeated [default: the input's
+    /// name, .png, in the current folder]
+    #[arg(short, long = "output", value_name = "FILE")]
+    pub(super) outputs: Vec<PathBuf>,
+
+    /// What - writes
+    #[arg(long, value_enum, default_value = "png")]
+    pub(super) format: FormatValue,
+
+    /// The picture's size in pixels [default: the scene file's, or 640x480; 1280x720 for models]
+    #[arg(long, value_name = "WxH", conflicts_with_all = ["width", "height"])]
+    pub(super) size: Option<Size>,
+
+    /// The picture's width in pixels
+    #[arg(long, value_name = "PIXELS")]
+    pub(super) width: Option<u32>,
+
+    /// The picture's height in pixels
+    #[arg(long, value_name = "PIXELS")]
+    pub(super) height: Option<u32>,
+
+    /// Samples a pixel, a square number [default: the scene file's, or 1; 4 for models]
+    #[arg(long, value_name = "N")]
+    pub(super) samples: Option<u32>,
+
+    /// The most mirror bounces [default: the scene file's, or 5]
+    #[arg(long, value_name = "N")]
+    pub(super) max_depth: Option<u32>,
+
+    /// How surfaces answer light [default: the scene file's, or blinn-phong]
+    #[arg(long, value_enum, value_name = "MODEL")]
+    pub(super) shading: Option<ShadingValue>,
+
+    /// A camera of the model, by name or by index from 0
+    #[arg(long, value_name = "NAME|INDEX", conflicts_with_all = ["eye", "target"])]
+    pub(super) camera: Option<String>,
+
+    /// Where to look from
+    #[arg(long, value_name = "X,Y,Z", requires = "target", allow_hyphen_values = true, value_parser = super::values::vector)]
+    pub(super) eye: Option<Vec3>,
+
+    /// What to look at
+    #[arg(long, value_name = "X,Y,Z", requires = "eye", allow_hyphen_values = true, value_parser = super::values::vector)]
+    pub(super) target: Option<Vec3>,
+
+    /// The vertical field of view [default: the camera's; 40 with --eye, 35 for a framed model]
+    #[arg(long, value_name = "DEGREES")]
+    pub(super) fov: Option<f32>,
+
+    /// Threads to use [default: all cores]
+    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) threads: Option<u16>,
+
+    /// How light becomes a PNG's colours [default: srgb for scene files, pbr-neutral for models]
+    #[arg(long, value_parser = super::values::display, value_name = "TRANSFORM", help = display_help())]
+    pub(super) display: Option<Display>,
+
+    /// Stops of exposure, PNG only: each doubles the light [default: 0, or what a model's own lights need]
+    #[arg(long, value_name = "EV", allow_negative_numbers = true)]
+    pub(super) exposure: Option<f32>,
+
+    /// Bits a channel of a PNG
+    #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
+    pub(super) bit_depth: String,
+
+    /// What lies behind everything: a display colour, or transparent [default: the scene file's; grey in a model's PNG,
+    /// transparent in its EXR]
+    #[arg(long, value_name = "#RRGGBB|transparent")]
+    pub(super) background: Option<BackgroundValue>,
+
+    /// How much time the search tree's build takes for how good a tree
+    #[arg(long, value_enum, value_name = "PRESET", default_value = "medium")]
+    pub(super) bvh: PresetValue,
+
+    /// The most primitives a leaf of the tree may have, 1 to 255 [default: the preset's]
+    #[arg(long, value_name = "N")]
+    pub(super) leaf_size: Option<NonZeroU8>,
+
+    /// Say more: the causes of an error, the memory of the tree, each file that was read
+    #[arg(short, long, conflicts_with = "quiet")]
+    pub(super) verbose: bool,
+
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+
+    /// Print the summary as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// Everything `luch info` can be told.
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:\n  luch info helmet.glb\n  luch info helmet.glb --json")]
+pub(super) struct InfoArguments {
+    /// A .glb, .gltf, .obj or .toml file
+    pub(super) input: PathBuf,
+
+    /// Print it as JSON
+    #[arg(long)]
+    pub(super) json: bool,
+
+    /// Say the causes of an error
+    #[arg(short, long)]
+    pub(super) verbose: bool,
+}
+
+fn display_help() -> String {
+    let names = Display::ALL.map(Display::name).join(", ");
+    format!(
+        "How light becomes a PNG's colours: {names} [default: srgb for scene files, pbr-neutral for models]"
+    )
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum FormatValue {
+    Png,
+    Exr,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum ShadingValue {
+    Flat,
+    Lambert,
+    Phong,
+    BlinnPhong,
+}
+
+impl From<ShadingValue> for Shading {
+    fn from(value: ShadingValue) -> Shading {
+        match value {
+            ShadingValue::Flat => Shading::Flat,
+            ShadingValue::Lambert => Shading::Lambert,
+            ShadingValue::Phong => Shading::Phong,
+            ShadingValue::BlinnPhong => Shading::BlinnPhong,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum PresetValue {
+    Fastest,
+    VeryFast,
+    Fast,
+    Medium,
+    Slow,
+    VerySlow,
+}
+
+impl From<PresetValue> for Preset {
+    fn from(value: PresetValue) -> Preset {
+        match value {
+            PresetValue::Fastest => Preset::Fastest,
+            PresetValue::VeryFast => Preset::VeryFast,
+            PresetValue::Fast => Preset::Fast,
+            PresetValue::Medium => Preset::Medium,
+            PresetValue::Slow => Preset::Slow,
+            PresetValue::VerySlow => Preset::VerySlow,
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! `[render]`, `[background]`, `[ambient]`.
+
+use super::kind::{COLOR, COUNT, COUNT_ABOVE_ZERO};
+use super::table::{Schema, Table};
+use crate::Error;
+use crate::color::Rgb;
+use crate::load::PictureDefaults;
+use crate::sampling::Grid;
+use crate::shade::Shading;
+
+const RENDER: Schema = Schema {
+    key: "render",
+    label: "[render]",
+    keys: &["width", "height", "samples", "max_depth", "shading"],
+};
+
+/// What is seen where nothing is.
+pub(super) const BACKGROUND: Schema = Schema {
+    key: "background",
+    label: "[background]",
+    keys: &["color"],
+};
+
+/// Light from everywhere.
+pub(super) const AMBIENT: Schema = Schema {
+    key: "ambient",
+    label: "[ambient]",
+    keys: &["color"],
+};
+
+const SHADINGS: [(&str, Shading); 4] = [
+    ("blinn-phong", Shading::BlinnPhong),
+    ("phong", Shading::Phong),
+    ("lambert", Shading::Lambert),
+    ("flat", Shading::Flat),
+];
+
+/// What the file says of the picture. Everything is said: the format has a default for each.
+pub(super) fn read(root: &Table<'_>) -> Result<PictureDefaults, Error> {
+    let mut picture = PictureDefaults {
+        width: Some(640),
+        height: Some(480),
+        samples: Some(1),
+        max_depth: Some(5),
+        shading: Some(Shading::BlinnPhong),
+    };
+    let Some(render) = root.table(&RENDER)? else {
+        return Ok(picture);
+    };
+    picture.width = render
+        .optional("width", &COUNT_ABOVE_ZERO)?
+        .or(picture.width);
+    picture.height = render
+        .optional("height", &COUNT_ABOVE_ZERO)?
+        .or(picture.height);
+    picture.max_depth = render.optional("max_depth", &COUNT)?.or(picture.max_depth);
+    picture.shading = render.choice("shading", &SHADINGS)?.or(picture.shading);
+    if let Some(samples) = render.optional("samples", &COUNT)? {
+        if Grid::with_samples(samples).is_none() {
+            return Err(render.wrong("samples", &nearest_squares(samples)));
+        }
+        picture.samples = Some(samples);
+    }
+    Ok(picture)
+}
+
+/// The colour of a table that has nothing else, where there is such a table.
+pub(super) fn color_of(root: &Table<'_>, schema: &Schema) -> Result<Option<Rgb>, Error> {
+    match root.table(schema)? {
+        None => Ok(None),
+        Some(table) => table.or("color", &COLOR, Rgb::BLACK).map(Some),
+    }
+}
+
+/// `a square number up to 65536, such as 4 or 9`: those about `samples`.
+fn nearest_squares(samples: u32) -> String {
+    let side = samples.isqrt().min(256);
+    let near: Vec<String> = [side, side + 1]
+        .into_iter()
+        .filter_map(|side| Grid::with_samples(side * side))
+        .map(|grid| grid.samples().to_string())
+        .collect();
+    format!("a square number up to 65536, such as {}", near.join(" or "))
+}

@@ -1,0 +1,180 @@
+//! What a picture should be like, checked once.
+
+use crate::film::{BEAUTY, DEPTH};
+use crate::sampling::Grid;
+use crate::shade::Shading;
+
+/// What a picture should be like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) grid: Grid,
+    pub(super) max_depth: u32,
+    pub(super) shading: Shading,
+    pub(super) tile_side: u32,
+}
+
+/// What is wrong with settings.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SettingsError {
+    /// No pixels.
+    #[error("a picture of {width} x {height} pixels has no pixels; both must be above 0")]
+    NoPixels {
+        /// As asked.
+        width: u32,
+        /// As asked.
+        height: u32,
+    },
+    /// More than a film may take.
+    #[error(
+        "a picture of {width} x {height} pixels needs {} MB of memory, more than the {} MB allowed; make it smaller",
+        bytes / 1_000_000,
+        MAX_FILM_BYTES / 1_000_000
+    )]
+    TooLarge {
+        /// As asked.
+        width: u32,
+        /// As asked.
+        height: u32,
+        /// What its film would take.
+        bytes: u64,
+    },
+    /// No grid has that many samples.
+    #[error("{samples} samples a pixel do not make a square grid; use {below} or {above}")]
+    NotSquare {
+        /// As asked.
+        samples: u32,
+        /// The nearest square number below.
+        below: u32,
+        /// The nearest square number above.
+        above: u32,
+    },
+    /// More mirror bounces than could ever matter.
+    #[error("a depth of {max_depth} mirror bounces is above the limit of {MAX_DEPTH}")]
+    TooDeep {
+        /// As asked.
+        max_depth: u32,
+    },
+}
+
+/// The most memory a film may take.
+pub(super) const MAX_FILM_BYTES: u64 = 4 << 30;
+/// The most mirror bounces that can be asked for.
+pub(super) const MAX_DEPTH: u32 = 10_000;
+/// The most samples a pixel, 256 x 256.
+const MAX_SAMPLES: u32 = 65_536;
+/// Tiles of this side are one batch of rays, large enough for packets of 64.
+const TILE_SIDE: u32 = 8;
+
+impl Settings {
+    /// A picture of `width x height` pixels with `samples` (a square number) a pixel and at most `max_depth` mirror
+    /// bounces.
+    ///
+    /// # Errors
+    ///
+    /// No pixels, more of them than 4 GiB hold, samples that are not a square number, a depth above
+    /// 10,000.
+    pub fn new(
+        width: u32,
+        height: u32,
+        samples: u32,
+        max_depth: u32,
+        shading: Shading,
+    ) -> Result<Settings, SettingsError> {
+        if width == 0 || height == 0 {
+            return Err(SettingsError::NoPixels { width, height });
+        }
+        let channels = (BEAUTY.channels.len() + DEPTH.channels.len()) as u64;
+        let bytes = u64::from(width)
+            .saturating_mul(u64::from(height))
+            .saturating_mul(channels * 4);
+        if bytes > MAX_FILM_BYTES {
+            return Err(SettingsError::TooLarge {
+                width,
+                height,
+                bytes,
+            });
+        }
+        if max_depth > MAX_DEPTH {
+            return Err(SettingsError::TooDeep { max_depth });
+        }
+        let grid = Grid::with_samples(samples).ok_or_else(|| {
+            let side = samples.min(MAX_SAMPLES).isqrt().max(1);
+            let above = ((side + 1) * (side + 1)).min(MAX_SAMPLES);
+            SettingsError::NotSquare {
+                samples,
+                below: side * side,
+                above,
+            }
+        })?;
+        Ok(Settings {
+            width,
+            height,
+            grid,
+            max_depth,
+            shading,
+            tile_side: TILE_SIDE,
+        })
+    }
+
+    /// The same picture, rendered in tiles of `side` pixels (at least 1): no pixel depends on it.
+    pub fn with_tile_side(self, side: u32) -> Settings {
+        Settings {
+            tile_side: side.max(1),
+            ..self
+        }
+    }
+
+    /// In pixels.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// In pixels.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// A pixel.
+    pub fn samples(&self) -> u32 {
+        self.grid.samples()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(width: u32, height: u32, samples: u32) -> Result<Settings, String> {
+        Settings::new(width, height, samples, 5, Shading::BlinnPhong)
+            .map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn pictures_of_no_size_or_too_great_a_size_are_refused_before_memory_is_taken() {
+        assert_eq!(
+            asked(0, 4, 1),
+            Err("a picture of 0 x 4 pixels has no pixels; both must be above 0".into())
+        );
+        let refused = asked(100_000, 100_000, 1).unwrap_err();
+        assert_eq!(
+            refused,
+            "a picture of 100000 x 100000 pixels needs 200000 MB of memory, more than the 4294 MB allowed; make it smaller"
+        );
+        assert!(asked(u32::MAX, u32::MAX, 1).is_err());
+    }
+
+    #[test]
+    fn samples_that_make_no_grid_get_the_nearest_ones_that_do() {
+        assert_eq!(
+            asked(4, 4, 5),
+            Err("5 samples a pixel do not make a square grid; use 4 or 9".into())
+        );
+        assert_eq!(
+            asked(4, 4, 0),
+            Err("0 samples a pixel do not make a square grid; use 1 or 4".into())
+        );
+        assert!(asked(4, 4, 65_536).is_ok() && asked(4, 4, u32::MAX).is_err());
+    }
+}

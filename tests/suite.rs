@@ -1,0 +1,8 @@
+//! Every integration test, in one program: linked once, and what they share is used.
+
+mod accel;
+mod analytic;
+mod common;
+mod invariance;
+mod load_scene_file;
+mod output;
