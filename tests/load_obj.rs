@@ -1,5 +1,7 @@
 //! OBJ files as a user has them: written to a folder, opened through the front door.
 
+#![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
 use glam::{Vec2, Vec3};
 use luch::color::Rgb;
 use luch::load::{Model, obj};
@@ -474,7 +476,6 @@ fn normals_and_heights_become_normal_maps_with_tangents() {
             (width, Encoding::Linear)
         );
         let mesh = &model.meshes[0];
-        assert_eq!(mesh.normals, [Vec3::Z; 3]);
         // u grows along x, and green, up in the picture, along y: n x t = y.
         assert_eq!(mesh.tangents, [Vec3::X.extend(1.0); 3]);
     }

@@ -4,5 +4,6 @@ mod accel;
 mod analytic;
 mod common;
 mod invariance;
+mod load_obj;
 mod load_scene_file;
 mod output;

@@ -135,6 +135,8 @@ fn said(kind: &str, error: impl std::fmt::Display) -> String {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
     use super::*;
     use image::{ImageBuffer, Luma, LumaA, Rgb, Rgba};
 

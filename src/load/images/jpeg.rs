@@ -49,6 +49,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(u32, u32, Pixels), String> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
     use super::*;
 
     fn from_hex(hex: &str) -> Vec<u8> {

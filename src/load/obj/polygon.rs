@@ -3,11 +3,11 @@
 use earcut::Earcut;
 use glam::DVec3;
 
-/// Ear clipping can take time that grows with the square of the corners. Polygons up to this size are always clipped;
+/// Polygons up to this size are always clipped.
 const FREE_CORNERS: usize = 64;
 
-/// of greater ones so many, by the sum of their corners' squares (a hostile one of 65536 corners took 11 s on the slowest
-/// machine at hand). The others become fans.
+/// So many greater ones are clipped, by the sum of their corners' squares: ear clipping can take time that grows with it
+/// (a zigzag of 100,001 corners took 28 s in earcut 0.4.12, a harmless comb as great 0.06 s). The others become fans.
 const MOST_WORK: u64 = 1 << 32;
 
 /// Cuts polygons; keeps its memory from one to the next.
