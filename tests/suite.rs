@@ -6,5 +6,6 @@ mod assets;
 mod common;
 mod invariance;
 mod load_gltf;
+mod load_obj;
 mod load_scene_file;
 mod output;

@@ -16,22 +16,24 @@
 mod bump;
 mod find;
 mod geometry;
+mod libraries;
 mod map;
 mod materials;
 mod meshes;
 mod mtl;
+mod numbers;
 mod polygon;
+mod reader;
 mod text;
 mod textures;
 
 use super::{Facts, Model, ModelMesh, Node, Part, Warnings, files, tangents};
 use crate::Error;
-use find::Found;
 use geometry::Geometry;
-use meshes::{Mended, MeshMaker, Needs};
-use mtl::MtlMaterial;
-use std::collections::{HashMap, HashSet};
-use std::path::{Path, PathBuf};
+use libraries::{folder_of, read_libraries};
+use meshes::{Mended, MeshMaker};
+use std::collections::HashMap;
+use std::path::Path;
 use textures::Textures;
 
 /// Longer files could have more corners than 32 bits can number.
@@ -76,17 +78,11 @@ pub fn open(path: &Path) -> Result<Model, Error> {
     Ok(model)
 }
 
-/// A material and the folder that its textures' names start from.
-struct Known {
-    mtl: MtlMaterial,
-    folder: PathBuf,
-}
-
 /// Reads MTLs and textures; for each material that the geometry names, its index in the model. The default comes last.
 fn add_materials(model: &mut Model, geometry: &Geometry) -> Vec<u32> {
     let folder = folder_of(&model.file);
     let mut textures = Textures::default();
-    let known = read_libraries(model, geometry, &folder, &mut textures);
+    let known = read_libraries(model, geometry, &folder, &mut textures.finder);
     let mut indices = Vec::with_capacity(geometry.materials.len());
     for name in &geometry.materials {
         let Some(known) = known.get(name) else {
@@ -115,105 +111,6 @@ fn add_materials(model: &mut Model, geometry: &Geometry) -> Vec<u32> {
         .collect()
 }
 
-fn folder_of(path: &Path) -> PathBuf {
-    path.parent().map(Path::to_owned).unwrap_or_default()
-}
-
-/// The materials of every MTL that the geometry names, by name.
-fn read_libraries(
-    model: &mut Model,
-    geometry: &Geometry,
-    folder: &Path,
-    textures: &mut Textures,
-) -> HashMap<String, Known> {
-    let mut known: HashMap<String, Known> = HashMap::new();
-    let folders = [folder.to_owned()];
-    let mut read = HashSet::new();
-    for names in &geometry.libraries {
-        // `mtllib` may list several files, and the name of one may have blanks.
-        let all = match textures.finder.find(names, &folders) {
-            Found::Missing => separate_libraries(names),
-            _ => vec![names.as_str()],
-        };
-        for name in all {
-            let Some(path) = library_path(model, &textures.finder.find(name, &folders), name)
-            else {
-                continue;
-            };
-            // However many names it goes by.
-            if read.insert(path.canonicalize().unwrap_or_else(|_| path.clone())) {
-                read_library(model, &path, &mut known);
-            }
-        }
-    }
-    known
-}
-
-/// The names in a list: each ends in `.mtl`, so that blanks within names are kept.
-fn separate_libraries(names: &str) -> Vec<&str> {
-    const ENDING: &str = ".mtl";
-    let mut separate = Vec::new();
-    let mut start = 0;
-    let lower = names.to_ascii_lowercase();
-    for (at, _) in lower.match_indices(ENDING) {
-        let end = at + ENDING.len();
-        let ends_word = names[end..].chars().next().is_none_or(char::is_whitespace);
-        if ends_word {
-            separate.push(names[start..end].trim());
-            start = end;
-        }
-    }
-    let last = names[start..].trim();
-    if !last.is_empty() {
-        separate.push(last);
-    }
-    separate
-}
-
-fn library_path(model: &mut Model, found: &Found, name: &str) -> Option<PathBuf> {
-    let name = text::shown(name.as_bytes());
-    match found {
-        Found::AsNamed(path) => Some(path.clone()),
-        Found::Elsewhere(path) => {
-            let there = path.display();
-            model
-                .warnings
-                .add(format!("MTL \"{name}\" is not there; {there} is taken"));
-            Some(path.clone())
-        }
-        Found::Missing => {
-            model
-                .warnings
-                .add(format!("MTL \"{name}\" is missing; its materials are grey"));
-            None
-        }
-    }
-}
-
-fn read_library(model: &mut Model, path: &Path, known: &mut HashMap<String, Known>) {
-    let bytes = match files::read(path) {
-        Ok(bytes) => bytes,
-        Err(error) => {
-            model
-                .warnings
-                .add(format!("{error}; its materials are grey"));
-            return;
-        }
-    };
-    model.files.push(path.to_owned());
-    let file = path.file_name().unwrap_or_default().to_string_lossy();
-    let folder = folder_of(path);
-    for mtl in mtl::read(&text::plain(&bytes), &file, &mut model.warnings) {
-        let (name, shown) = (mtl.name.clone(), text::shown(mtl.name.as_bytes()));
-        let folder = folder.clone();
-        if known.insert(name, Known { mtl, folder }).is_some() {
-            model.warnings.add(format!(
-                "{file}: material \"{shown}\" was there before; the later one counts"
-            ));
-        }
-    }
-}
-
 /// A shape and its node for each object, and in it a part for each material.
 fn add_shapes(model: &mut Model, geometry: &Geometry, material_of: &[u32]) {
     let default = (model.materials.len() as u32).saturating_sub(1);
@@ -226,26 +123,24 @@ fn add_shapes(model: &mut Model, geometry: &Geometry, material_of: &[u32]) {
             .and_then(|index| material_of.get(index as usize));
         let material = named.copied().unwrap_or(default);
         let made_of = model.materials.get(material as usize);
+        let needs_uvs = made_of.is_some_and(|material| material.textures().next().is_some());
         let has_normal_map = made_of.is_some_and(|material| material.normal_map.is_some());
-        let needs = Needs {
-            uvs: made_of.is_some_and(|material| material.textures().next().is_some()),
-            normals: has_normal_map,
-        };
-        let (mut mesh, more) = maker.mesh(group, needs);
+        let (mut mesh, more) = maker.mesh(group, needs_uvs);
         mended = mended.and(more);
         if mesh.triangles.is_empty() {
             continue;
         }
-        if has_normal_map {
-            if let Err(tangents::TooCrowded) = tangents::add(&mut mesh, 0) {
-                model.warnings.add(format!(
-                    "object {:?}: too many corners meet in one point for tangents, so that its normal map is ignored",
-                    group.object
-                ));
-            }
-        }
         let name = geometry.objects.get(group.object as usize);
         mesh.name = name.cloned().unwrap_or_default();
+        if has_normal_map
+            && !mesh.uvs[0].is_empty()
+            && let Err(tangents::TooCrowded) = tangents::add(&mut mesh, 0)
+        {
+            let name = text::shown(mesh.name.as_bytes());
+            model.warnings.add(format!(
+                "mesh \"{name}\": too many corners meet in one point for tangents; its normal map is not used"
+            ));
+        }
         let shape = *shape_of
             .entry(group.object)
             .or_insert_with(|| new_shape(model, &mesh.name));
@@ -258,6 +153,10 @@ fn add_shapes(model: &mut Model, geometry: &Geometry, material_of: &[u32]) {
             shape.parts.push(part);
         }
     }
+    model.warnings.add_times(
+        "a face of very many corners is not convex and may be cut wrongly",
+        maker.fans(),
+    );
     tell(mended, &mut model.warnings);
 }
 
@@ -284,7 +183,7 @@ fn tell(mended: Mended, warnings: &mut Warnings) {
             mended.dropped,
         ),
         (
-            "a corner without texture coordinates, of a material with a texture, is at (0, 0)",
+            "a corner without texture coordinates, of a material with a texture, shows a corner of it",
             mended.without_uv,
         ),
         (

@@ -88,6 +88,8 @@ fn listing(folder: &Path) -> HashMap<String, OsString> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
     use super::*;
 
     fn folder() -> tempfile::TempDir {

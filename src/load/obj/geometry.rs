@@ -1,19 +1,13 @@
-//! What an OBJ file says, line by line: vertices, faces, and which object and material they belong to.
+//! What an OBJ file says: vertices, faces, and which object and material they belong to.
 
-use super::text::{Lines, Words, name, number, shown};
-use crate::color::srgb_to_linear;
+use super::reader::Reader;
+use super::text::Lines;
 use crate::load::Warnings;
 use glam::{Vec2, Vec3};
-use std::collections::HashMap;
 use std::ops::Range;
 
 /// Stands for a texture coordinate or a normal that a corner does not name.
 pub(super) const NONE: u32 = u32::MAX;
-
-/// Vertex colours above this are bytes: some writers leave out the division by 255.
-const BRIGHTEST_SHARE: f32 = 2.0;
-
-const WHITE: [f32; 4] = [1.0; 4];
 
 /// A corner of a face: indices into the lists of a [`Geometry`], in range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,10 +21,10 @@ pub(super) struct Corner {
 
 /// A polygon of three corners or more.
 #[derive(Clone, Copy, Debug)]
-struct Face {
-    line: u32,
+pub(super) struct Face {
+    pub(super) line: u32,
     /// Where in the list of corners the next face begins.
-    end: u32,
+    pub(super) end: u32,
 }
 
 /// Faces of one object and one material.
@@ -62,8 +56,8 @@ pub(super) struct Geometry {
     pub(super) uvs: Vec<Vec2>,
     /// Unit length; zero where the file's has no direction.
     pub(super) normals: Vec<Vec3>,
-    corners: Vec<Corner>,
-    faces: Vec<Face>,
+    pub(super) corners: Vec<Corner>,
+    pub(super) faces: Vec<Face>,
     /// In the order of their first face.
     pub(super) groups: Vec<Group>,
     /// Of `o`, or of `g` in a file without `o`.
@@ -91,7 +85,7 @@ impl Geometry {
                 line: line.number,
                 problem,
             };
-            reader.read(line.number, line.text).map_err(bad)?;
+            reader.statement(line.number, line.text).map_err(bad)?;
         }
         reader.finish()
     }
@@ -103,368 +97,4 @@ impl Geometry {
         let start = face.checked_sub(1).map_or(0, end_of);
         self.corners.get(start..end_of(face)).unwrap_or_default()
     }
-}
-
-/// Names in the order in which they first appear.
-#[derive(Default)]
-struct Names {
-    list: Vec<String>,
-    indices: HashMap<Vec<u8>, u32>,
-}
-
-impl Names {
-    fn index(&mut self, bytes: &[u8]) -> u32 {
-        if let Some(&known) = self.indices.get(bytes) {
-            return known;
-        }
-        let index = self.list.len() as u32;
-        self.list.push(name(bytes));
-        self.indices.insert(bytes.to_owned(), index);
-        index
-    }
-}
-
-/// Faces between two statements that change what they belong to.
-struct Run {
-    object: Option<u32>,
-    group: Option<u32>,
-    material: Option<u32>,
-    faces: Range<u32>,
-}
-
-#[derive(Default)]
-struct Reader {
-    read: Geometry,
-    objects: Names,
-    groups: Names,
-    materials: Names,
-    object: Option<u32>,
-    group: Option<u32>,
-    material: Option<u32>,
-    runs: Vec<Run>,
-    run_start: u32,
-    smooths: bool,
-    smooth_faces: usize,
-    weighted: usize,
-    strayed: usize,
-    brightest: f32,
-}
-
-impl Reader {
-    fn read(&mut self, line: u32, text: &[u8]) -> Result<(), String> {
-        let mut words = Words::of(text);
-        let Some(keyword) = words.next() else {
-            return Ok(());
-        };
-        match keyword {
-            [b'#', ..] => {}
-            b"v" => return self.vertex(words),
-            b"vt" => {
-                // Of one coordinate the other is 0; a third is for solid textures.
-                let (uv, _) = numbers::<2>(words, 1, "a texture coordinate", "u v")?;
-                self.read.uvs.push(Vec2::from(uv));
-            }
-            b"vn" => {
-                let (normal, _) = numbers::<3>(words, 3, "a normal", "x y z")?;
-                let unit = Vec3::from(normal).as_dvec3().normalize_or_zero();
-                self.read.normals.push(unit.as_vec3());
-            }
-            // `fo` is what `f` was called before version 2.11 of the format.
-            b"f" | b"fo" => return self.face(line, words),
-            b"p" => self.read.points += words.count(),
-            b"l" => self.read.lines += words.count().saturating_sub(1),
-            b"o" => {
-                self.end_run();
-                self.object = Some(self.objects.index(words.rest()));
-            }
-            b"g" => {
-                self.end_run();
-                self.group = Some(self.groups.index(words.rest()));
-            }
-            b"usemtl" => {
-                self.end_run();
-                let name = words.rest();
-                self.material = (!name.is_empty()).then(|| self.materials.index(name));
-            }
-            b"mtllib" => self.read.libraries.push(name(words.rest())),
-            b"s" => self.smooths = !matches!(words.next(), None | Some(b"off" | b"0")),
-            unknown => self.read.warnings.add(format!(
-                "statement \"{}\" is not supported and ignored",
-                shown(unknown)
-            )),
-        }
-        Ok(())
-    }
-
-    /// `x y z`, or `x y z w`, or `x y z r g b`, or `x y z r g b a`.
-    fn vertex(&mut self, words: Words) -> Result<(), String> {
-        let (numbers, count) = numbers::<7>(words, 3, "a vertex", "x y z")?;
-        let [x, y, z, fourth, g, b, a] = numbers;
-        let before = self.read.positions.len();
-        self.read.positions.push(Vec3::new(x, y, z));
-        let color = match count {
-            0..=3 => None,
-            4 | 5 => {
-                // A weight for rational curves: polygons have no use for it.
-                self.weighted += usize::from(fourth != 1.0);
-                None
-            }
-            6 => Some([fourth, g, b, 1.0]),
-            _ => Some([fourth, g, b, a]),
-        };
-        if let Some(color) = color {
-            self.read.colors.resize(before, WHITE);
-            self.read.colors.push(color);
-            let most = color.into_iter().fold(0.0, f32::max);
-            if most.is_finite() {
-                self.brightest = self.brightest.max(most);
-            }
-        } else if !self.read.colors.is_empty() {
-            self.read.colors.push(WHITE);
-        }
-        Ok(())
-    }
-
-    fn face(&mut self, line: u32, words: Words) -> Result<(), String> {
-        let start = self.read.corners.len();
-        let mut has_normals = true;
-        for word in words.take_while(|word| !word.starts_with(b"#")) {
-            let corner = self.corner(word)?;
-            has_normals &= corner.normal != NONE;
-            self.read.corners.push(corner);
-        }
-        match self.read.corners.len() - start {
-            0 => return Err("face has no corner, expected 3 or more".into()),
-            1 => self.read.points += 1,
-            2 => self.read.lines += 1,
-            _ => {
-                let end = self.read.corners.len() as u32;
-                self.read.faces.push(Face { line, end });
-                self.smooth_faces += usize::from(self.smooths && !has_normals);
-                return Ok(());
-            }
-        }
-        self.read.corners.truncate(start);
-        Ok(())
-    }
-
-    fn corner(&mut self, word: &[u8]) -> Result<Corner, String> {
-        let mut parts = word.split(|&byte| byte == b'/');
-        let mut part = |kind, count| match parts.next() {
-            None | Some([]) => Ok(Index::None),
-            Some(digits) => index(digits, kind, count),
-        };
-        let position = part("vertex", self.read.positions.len())?;
-        let uv = part("texture coordinate", self.read.uvs.len())?;
-        let normal = part("normal", self.read.normals.len())?;
-        let more = parts.count();
-        if more > 0 {
-            return Err(format!(
-                "face corner \"{}\" has {} numbers, expected at most 3",
-                shown(word),
-                more + 3
-            ));
-        }
-        let position = match position {
-            Index::At(index) => index,
-            Index::Nowhere(problem) => return Err(problem),
-            Index::None => {
-                let word = shown(word);
-                return Err(format!("face corner \"{word}\" names no vertex"));
-            }
-        };
-        let mut optional = |index| match index {
-            Index::At(index) => index,
-            Index::None => NONE,
-            Index::Nowhere(_) => {
-                self.strayed += 1;
-                NONE
-            }
-        };
-        Ok(Corner {
-            position,
-            uv: optional(uv),
-            normal: optional(normal),
-        })
-    }
-
-    fn end_run(&mut self) {
-        let end = self.read.faces.len() as u32;
-        if end > self.run_start {
-            self.runs.push(Run {
-                object: self.object,
-                group: self.group,
-                material: self.material,
-                faces: self.run_start..end,
-            });
-        }
-        self.run_start = end;
-    }
-
-    fn finish(mut self) -> Result<Geometry, BadLine> {
-        self.end_run();
-        self.check_indices()?;
-        self.sort_into_groups();
-        self.finish_colors();
-        let warnings = &mut self.read.warnings;
-        warnings.add_times("a point is not drawn", self.read.points);
-        warnings.add_times("a line segment is not drawn", self.read.lines);
-        warnings.add_times(
-            "the fourth number of a vertex, its weight, is ignored",
-            self.weighted,
-        );
-        warnings.add_times(
-            "a corner names a texture coordinate or a normal that is not there, and has none",
-            self.strayed,
-        );
-        warnings.add_times(
-            "a face without normals is flat: smoothing groups are not supported",
-            self.smooth_faces,
-        );
-        self.read.materials = self.materials.list;
-        Ok(self.read)
-    }
-
-    /// Only now: a face may name vertices that come after it. Without its vertex a face has no shape; without a texture
-    /// coordinate or a normal it still has one.
-    fn check_indices(&mut self) -> Result<(), BadLine> {
-        let read = &mut self.read;
-        let count = read.positions.len();
-        let (uvs, normals) = (read.uvs.len(), read.normals.len());
-        let mut start = 0;
-        for face in &read.faces {
-            let end = face.end as usize;
-            for corner in read.corners.get_mut(start..end).unwrap_or_default() {
-                if corner.position as usize >= count {
-                    return Err(BadLine {
-                        line: face.line,
-                        problem: no_such("vertex", u64::from(corner.position) + 1, count),
-                    });
-                }
-                for (index, count) in [(&mut corner.uv, uvs), (&mut corner.normal, normals)] {
-                    if *index as usize >= count && *index != NONE {
-                        *index = NONE;
-                        self.strayed += 1;
-                    }
-                }
-            }
-            start = end;
-        }
-        Ok(())
-    }
-
-    fn sort_into_groups(&mut self) {
-        let has_objects = !self.objects.list.is_empty();
-        let mut names = if has_objects {
-            std::mem::take(&mut self.objects)
-        } else {
-            std::mem::take(&mut self.groups)
-        };
-        let mut known: HashMap<(u32, Option<u32>), usize> = HashMap::new();
-        for run in &self.runs {
-            let object = if has_objects { run.object } else { run.group };
-            let object = object.unwrap_or_else(|| names.index(b""));
-            let next = self.read.groups.len();
-            let at = *known.entry((object, run.material)).or_insert(next);
-            match self.read.groups.get_mut(at) {
-                Some(group) => group.faces.push(run.faces.clone()),
-                None => self.read.groups.push(Group {
-                    object,
-                    material: run.material,
-                    faces: vec![run.faces.clone()],
-                }),
-            }
-        }
-        self.read.objects = names.list;
-    }
-
-    fn finish_colors(&mut self) {
-        let are_bytes = self.brightest > BRIGHTEST_SHARE;
-        let scale = if are_bytes { 1.0 / 255.0 } else { 1.0 };
-        if are_bytes {
-            self.read
-                .warnings
-                .add("vertex colors go above 1 and are taken as 0 to 255");
-        }
-        let mut broken = 0;
-        for color in &mut self.read.colors {
-            if !color.iter().all(|channel| channel.is_finite()) {
-                *color = WHITE;
-                broken += 1;
-            } else if *color != WHITE {
-                let [r, g, b, a] = color.map(|channel| (channel * scale).clamp(0.0, 1.0));
-                let [r, g, b] = [r, g, b].map(srgb_to_linear);
-                *color = [r, g, b, a];
-            }
-        }
-        self.read
-            .warnings
-            .add_times("a vertex color that is no finite number is white", broken);
-    }
-}
-
-/// Up to `N` numbers and how many there were, `least` of them needed; the others are 0.
-fn numbers<const N: usize>(
-    words: Words,
-    least: usize,
-    what: &str,
-    expected: &str,
-) -> Result<([f32; N], usize), String> {
-    let mut numbers = [0.0; N];
-    let mut count = 0;
-    let words = words.take_while(|word| !word.starts_with(b"#"));
-    for (slot, word) in numbers.iter_mut().zip(words) {
-        *slot = number(word)
-            .ok_or_else(|| format!("{what} has \"{}\", expected a number", shown(word)))?;
-        count += 1;
-    }
-    if count < least {
-        return Err(format!(
-            "{what} has too few numbers ({count}), expected {expected}"
-        ));
-    }
-    Ok((numbers, count))
-}
-
-/// What a number of a face's corner names.
-enum Index {
-    /// Nothing: the number is left out.
-    None,
-    /// The one at this place, counted from 0. It may come later in the file.
-    At(u32),
-    /// One that cannot be: said in words.
-    Nowhere(String),
-}
-
-/// An index of what counts from 1, or backwards from the latest where it is negative.
-fn index(digits: &[u8], kind: &str, count: usize) -> Result<Index, String> {
-    let (is_negative, magnitude) = match digits {
-        [b'-', rest @ ..] => (true, rest),
-        [b'+', rest @ ..] => (false, rest),
-        rest => (false, rest),
-    };
-    if magnitude.is_empty() || !magnitude.iter().all(u8::is_ascii_digit) {
-        return Err(format!("face has \"{}\", expected an index", shown(digits)));
-    }
-    let value = magnitude.iter().fold(0u64, |value, digit| {
-        value
-            .saturating_mul(10)
-            .saturating_add(u64::from(digit - b'0'))
-    });
-    let index = match (value, is_negative) {
-        (0, _) => {
-            let problem = format!("face names {kind} 0, indices start at 1");
-            return Ok(Index::Nowhere(problem));
-        }
-        (_, true) => (count as u64).checked_sub(value),
-        (_, false) => Some(value - 1),
-    };
-    Ok(match index.and_then(|index| u32::try_from(index).ok()) {
-        Some(index) if index != NONE => Index::At(index),
-        _ => Index::Nowhere(no_such(kind, shown(digits), count)),
-    })
-}
-
-fn no_such(kind: &str, index: impl std::fmt::Display, count: usize) -> String {
-    format!("face names {kind} {index}, there are {count}")
 }

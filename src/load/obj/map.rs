@@ -154,6 +154,8 @@ fn take_numbers(words: &mut Words, most: usize) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
     use super::*;
 
     fn read(text: &str) -> Map {

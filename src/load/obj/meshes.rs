@@ -20,15 +20,6 @@ pub(super) struct Mended {
     pub(super) broken_uvs: usize,
 }
 
-/// What a mesh's material asks of it.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Needs {
-    /// It has a texture.
-    pub(super) uvs: bool,
-    /// It has a normal map, which needs normals even where triangles are flat.
-    pub(super) normals: bool,
-}
-
 /// Makes meshes; keeps its memory from one to the next.
 pub(super) struct MeshMaker<'a> {
     geometry: &'a Geometry,
@@ -60,14 +51,15 @@ impl<'a> MeshMaker<'a> {
         }
     }
 
-    /// The mesh of a group; without triangles where none of its faces can be drawn.
-    pub(super) fn mesh(&mut self, group: &Group, needs: Needs) -> (Mesh, Mended) {
+    /// The mesh of a group; without triangles where none of its faces can be drawn. Whether it misses texture coordinates
+    /// is told where it `needs_uvs`.
+    pub(super) fn mesh(&mut self, group: &Group, needs_uvs: bool) -> (Mesh, Mended) {
         self.weld.mesh_number += 1;
         self.weld.vertices.clear();
         let geometry = self.geometry;
         let faces = || group.faces.iter().flat_map(Clone::clone);
         let corners = || faces().flat_map(|face| geometry.face(face));
-        let has_normals = needs.normals || faces().any(|face| is_smooth(geometry, face));
+        let has_normals = faces().any(|face| is_smooth(geometry, face));
         let (mut mesh, mut mended) = (Mesh::default(), Mended::default());
         for face in faces() {
             mended.dropped += self.add_face(&mut mesh, face, has_normals);
@@ -81,10 +73,15 @@ impl<'a> MeshMaker<'a> {
         if corners().any(|corner| corner.uv != NONE) {
             mesh.uvs[0].extend(made_of().map(|corner| mended.uv(geometry, corner)));
         }
-        if needs.uvs {
+        if needs_uvs {
             mended.without_uv = corners().filter(|corner| corner.uv == NONE).count();
         }
         (mesh, mended)
+    }
+
+    /// How many faces of all meshes had too many corners to be cut rightly.
+    pub(super) fn fans(&self) -> usize {
+        self.triangulator.fans()
     }
 
     /// Adds a face's triangles; how many are left out.

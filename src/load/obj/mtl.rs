@@ -185,6 +185,8 @@ fn numbers<const N: usize>(words: &mut Words) -> Result<(usize, [f32; N]), Strin
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
     use super::*;
 
     fn read_all(text: &str) -> (Vec<MtlMaterial>, Vec<String>) {

@@ -182,6 +182,8 @@ fn transform(map: &Map) -> Option<Mat3> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
     use super::*;
     use glam::Vec2;
 
