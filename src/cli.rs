@@ -1,22 +1,19 @@
 //! The command line: one file a command, and the only place that prints.
-#![expect(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "printing is what this module is for"
-)]
 
 mod arguments;
 mod info;
 mod interrupt;
+mod outputs;
+mod print;
 mod progress;
 mod render;
 mod summary;
 mod values;
 
 use arguments::{Arguments, Command};
+use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use std::error::Error;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 /// Why a command ended without doing its work.
@@ -28,7 +25,7 @@ struct Failure {
 
 /// The exit code of wrong usage, and of a scene that cannot be rendered.
 const USAGE_OR_SCENE: u8 = 1;
-/// The exit code of a picture that cannot be written.
+/// The exit code of a picture or a text that cannot be written.
 const OUTPUT: u8 = 2;
 
 impl Failure {
@@ -49,18 +46,9 @@ impl Failure {
 
 /// Does what the command line asks.
 pub(crate) fn run() -> ExitCode {
-    let arguments = match Arguments::try_parse() {
-        Ok(arguments) => arguments,
-        Err(error) => return explain(&error),
-    };
-    let (result, verbose) = match &arguments.command {
-        Command::Render(arguments) => (render::run(arguments), arguments.verbose),
-        Command::Info(arguments) => (info::run(arguments), arguments.verbose),
-        Command::Completions { shell } => {
-            let mut out = Vec::new();
-            clap_complete::generate(*shell, &mut Arguments::command(), "luch", &mut out);
-            (print_bytes(&out), false)
-        }
+    let (result, verbose) = match Arguments::try_parse() {
+        Ok(arguments) => (obey(&arguments.command), arguments.command.is_verbose()),
+        Err(error) => (explain(&error), false),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -71,53 +59,63 @@ pub(crate) fn run() -> ExitCode {
     }
 }
 
-/// Writes to standard output, which may be a pipe that somebody closed.
-fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    match out.write_all(bytes).and_then(|()| out.flush()) {
-        // Whoever reads has read enough.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Failure::output(format!(
-            "standard output: cannot write: {error}"
-        ))),
-        _ => Ok(()),
+fn obey(command: &Command) -> Result<(), Failure> {
+    match command {
+        Command::Render(arguments) => render::run(arguments),
+        Command::Info(arguments) => info::run(arguments),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Arguments::command(), "luch", &mut script);
+            print::to_stdout(&script)
+        }
     }
 }
 
-/// An error's one line, and with `verbose` its causes.
+/// An error's one line, and with `verbose` its causes, of as many lines as they like.
 fn complain(error: &dyn Error, verbose: bool) {
-    eprintln!("error: {error}");
+    print::to_stderr(&format!("error: {error}"));
     let mut cause = error.source().filter(|_| verbose);
     while let Some(error) = cause {
-        eprintln!("  because: {error}");
+        let text = error.to_string();
+        let mut lines = text.trim_end().lines();
+        print::to_stderr(&format!("  because: {}", lines.next().unwrap_or_default()));
+        lines.for_each(|line| print::to_stderr(&format!("  {line}")));
         cause = error.source();
     }
 }
 
-/// Help and version where they were asked for, else the one line that says what is wrong with the arguments.
-fn explain(error: &clap::Error) -> ExitCode {
+/// Prints help and version where they were asked for; else says in one line what is wrong with the arguments.
+fn explain(error: &clap::Error) -> Result<(), Failure> {
     if !error.use_stderr() {
-        let said = error.print();
-        return if said.is_ok() {
-            ExitCode::SUCCESS
-        } else {
-            ExitCode::from(OUTPUT)
-        };
+        return print::written(error.print());
     }
-    // What follows the first empty line are tips and usage; a list of what is missing belongs to the sentence.
-    let text = error.to_string();
-    let mut paragraphs = text
-        .split("\n\n")
-        .map(|p| p.split_whitespace().collect::<Vec<_>>().join(" "));
-    let sentence = paragraphs.next().unwrap_or_default();
-    let tip = paragraphs
-        .find(|p| p.starts_with("tip: "))
-        .map_or(String::new(), |tip| format!("; {tip}"));
-    let sentence =
-        if error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
-            "error: no command given".to_owned()
-        } else {
-            sentence
-        };
-    eprintln!("{sentence}{tip} (see luch --help)");
-    ExitCode::from(USAGE_OR_SCENE)
+    let command = std::env::args_os().nth(1).unwrap_or_default();
+    let help = Arguments::command()
+        .get_subcommands()
+        .find(|known| command == known.get_name())
+        .map_or("luch --help".into(), |known| {
+            format!("luch {} --help", known.get_name())
+        });
+    let problem = match error.kind() {
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no command given".into(),
+        _ => problem(&error.to_string()),
+    };
+    Err(Failure::usage_or_scene(format!("{problem} (see {help})")))
+}
+
+/// The problem and the tip in clap's text, on one line.
+fn problem(text: &str) -> String {
+    let without_usage = ["\n\nUsage:", "\n\nFor more information"]
+        .into_iter()
+        .fold(text, |text, end| {
+            text.rsplit_once(end).map_or(text, |(start, _)| start)
+        });
+    let text = without_usage.replace("\n\n  tip:", "; tip:");
+    // A list of what is missing has a line for each.
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let sentence = words.join(" ");
+    sentence
+        .strip_prefix("error: ")
+        .unwrap_or(&sentence)
+        .to_owned()
 }

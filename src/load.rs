@@ -31,10 +31,13 @@ pub fn open(path: &Path) -> Result<Asset, Error> {
         Some("toml") => scene_file::open(path),
         Some("gltf" | "glb") => gltf::open(path).map(Asset::of_model),
         Some("obj") => obj::open(path).map(Asset::of_model),
-        _ => Err(Error::Unsupported {
-            file: path.to_owned(),
-            what: "its name does not end in .gltf, .glb, .obj or .toml".into(),
-            way_out: "convert it to glTF, or rename it if it is one of these".into(),
-        }),
+        _ => {
+            files::check(path)?;
+            Err(Error::Unsupported {
+                file: path.to_owned(),
+                what: "its name does not end in .gltf, .glb, .obj or .toml".into(),
+                way_out: "convert it to glTF, or rename it if it is one of these".into(),
+            })
+        }
     }
 }

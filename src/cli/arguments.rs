@@ -1,13 +1,14 @@
 //! What can be said on the command line.
 
-use super::values::{BackgroundValue, Size};
+use super::values::{self, BackgroundValue, Size, whole_number};
+use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
 use luch::accel::Preset;
-use luch::output::Display;
+use luch::output::{BitDepth, Display, Format};
 use luch::shade::Shading;
 use std::num::NonZeroU8;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -41,13 +42,25 @@ pub(super) enum Command {
     },
 }
 
+impl Command {
+    /// Whether the causes of an error are wanted.
+    pub(super) fn is_verbose(&self) -> bool {
+        match self {
+            Command::Render(arguments) => arguments.verbose,
+            Command::Info(arguments) => arguments.verbose,
+            Command::Completions { .. } => false,
+        }
+    }
+}
+
 const RENDER_EXAMPLES: &str = "\
 Examples:
   luch render assets/scenes/figure-4.toml
   luch render helmet.glb --size 1920x1080 --samples 16 -o helmet.png -o helmet.exr
   luch render room.gltf --camera \"Front door\" --exposure -1
   luch render chair.obj --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
-  luch render helmet.glb -o - --json=false | viewer
+  luch render helmet.glb -o - | viewer
+  luch render helmet.glb -o helmet.png --json > helmet.json
 
 Exit codes: 0 done, 1 usage or scene, 2 output, 130 interrupted.";
 
@@ -63,7 +76,7 @@ pub(super) struct RenderArguments {
     #[arg(short, long = "output", value_name = "FILE")]
     pub(super) outputs: Vec<PathBuf>,
 
-    /// What - writes
+    /// What -o - writes
     #[arg(long, value_enum, default_value = "png")]
     pub(super) format: FormatValue,
 
@@ -72,19 +85,19 @@ pub(super) struct RenderArguments {
     pub(super) size: Option<Size>,
 
     /// The picture's width in pixels
-    #[arg(long, value_name = "PIXELS")]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = whole_number(0..=u32::MAX))]
     pub(super) width: Option<u32>,
 
     /// The picture's height in pixels
-    #[arg(long, value_name = "PIXELS")]
+    #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = whole_number(0..=u32::MAX))]
     pub(super) height: Option<u32>,
 
     /// Samples a pixel, a square number [default: the scene file's, or 1; 4 for models]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(0..=u32::MAX))]
     pub(super) samples: Option<u32>,
 
     /// The most mirror bounces [default: the scene file's, or 5]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(0..=u32::MAX))]
     pub(super) max_depth: Option<u32>,
 
     /// How surfaces answer light [default: the scene file's, or blinn-phong]
@@ -92,36 +105,36 @@ pub(super) struct RenderArguments {
     pub(super) shading: Option<ShadingValue>,
 
     /// A camera of the model, by name or by index from 0
-    #[arg(long, value_name = "NAME|INDEX", conflicts_with_all = ["eye", "target"])]
+    #[arg(long, value_name = "NAME|INDEX", conflicts_with_all = ["eye", "target"], value_parser = NonEmptyStringValueParser::new())]
     pub(super) camera: Option<String>,
 
     /// Where to look from
-    #[arg(long, value_name = "X,Y,Z", requires = "target", allow_hyphen_values = true, value_parser = super::values::vector)]
+    #[arg(long, value_name = "X,Y,Z", requires = "target", allow_hyphen_values = true, value_parser = values::vector)]
     pub(super) eye: Option<Vec3>,
 
     /// What to look at
-    #[arg(long, value_name = "X,Y,Z", requires = "eye", allow_hyphen_values = true, value_parser = super::values::vector)]
+    #[arg(long, value_name = "X,Y,Z", requires = "eye", allow_hyphen_values = true, value_parser = values::vector)]
     pub(super) target: Option<Vec3>,
 
     /// The vertical field of view [default: the camera's; 40 with --eye, 35 for a framed model]
-    #[arg(long, value_name = "DEGREES")]
+    #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = values::field_of_view)]
     pub(super) fov: Option<f64>,
 
     /// Threads to use [default: all cores]
-    #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub(super) threads: Option<u16>,
+    #[arg(short, long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(1..=1024))]
+    pub(super) threads: Option<u32>,
 
     /// How light becomes a PNG's colours [default: srgb for scene files, pbr-neutral for models]
-    #[arg(long, value_parser = super::values::display, value_name = "TRANSFORM", help = display_help())]
+    #[arg(long, value_name = "TRANSFORM", value_parser = values::display())]
     pub(super) display: Option<Display>,
 
     /// Stops of exposure, PNG only: each doubles the light [default: 0, or what a model's own lights need]
-    #[arg(long, value_name = "EV", allow_negative_numbers = true)]
+    #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = values::stops)]
     pub(super) exposure: Option<f32>,
 
     /// Bits a channel of a PNG
-    #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
-    pub(super) bit_depth: String,
+    #[arg(long, value_enum, value_name = "BITS", default_value = "8")]
+    pub(super) bit_depth: BitDepthValue,
 
     /// What lies behind everything: a display colour, or transparent [default: the scene file's; grey in a model's PNG,
     /// transparent in its EXR]
@@ -133,7 +146,7 @@ pub(super) struct RenderArguments {
     pub(super) bvh: PresetValue,
 
     /// The most primitives a leaf of the tree may have, 1 to 255 [default: the preset's]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::leaf_size)]
     pub(super) leaf_size: Option<NonZeroU8>,
 
     /// Say more: the causes of an error, the memory of the tree, each file that was read
@@ -147,6 +160,18 @@ pub(super) struct RenderArguments {
     /// Print the summary as JSON
     #[arg(long)]
     pub(super) json: bool,
+}
+
+impl RenderArguments {
+    /// Whether standard output is the picture's: what is said then goes to standard error.
+    pub(super) fn picture_to_stdout(&self) -> bool {
+        self.outputs.iter().any(|path| is_stdout(path))
+    }
+}
+
+/// Whether a path stands for standard output.
+pub(super) fn is_stdout(path: &Path) -> bool {
+    path == Path::new("-")
 }
 
 /// Everything `luch info` can be told.
@@ -165,17 +190,36 @@ pub(super) struct InfoArguments {
     pub(super) verbose: bool,
 }
 
-fn display_help() -> String {
-    let names = Display::ALL.map(Display::name).join(", ");
-    format!(
-        "How light becomes a PNG's colours: {names} [default: srgb for scene files, pbr-neutral for models]"
-    )
-}
-
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum FormatValue {
     Png,
     Exr,
+}
+
+impl From<FormatValue> for Format {
+    fn from(value: FormatValue) -> Format {
+        match value {
+            FormatValue::Png => Format::Png,
+            FormatValue::Exr => Format::Exr,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum BitDepthValue {
+    #[value(name = "8")]
+    Eight,
+    #[value(name = "16")]
+    Sixteen,
+}
+
+impl From<BitDepthValue> for BitDepth {
+    fn from(value: BitDepthValue) -> BitDepth {
+        match value {
+            BitDepthValue::Eight => BitDepth::Eight,
+            BitDepthValue::Sixteen => BitDepth::Sixteen,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

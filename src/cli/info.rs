@@ -1,248 +1,153 @@
 //! `luch info`: what is in a file, and what luch makes of it.
 
-use super::arguments::InfoArguments;
-use super::{Failure, print_bytes};
-use indicatif::HumanCount;
-use luch::load::{self, Asset, CameraChoice, Model, Viewpoint};
-use serde::Serialize;
-use std::path::PathBuf;
+mod model;
+mod scene_file;
 
-/// What is in a file.
+use super::Failure;
+use super::arguments::InfoArguments;
+use super::print::{self, counted};
+use luch::load::{self, Asset, CameraChoice, Viewpoint};
+use luch::scene::Scene;
+use model::ModelInfo;
+use scene_file::SceneFileInfo;
+use serde::Serialize;
+
+/// What is in a file: the fields of `--json`.
 #[derive(Serialize)]
 struct Info {
-    file: PathBuf,
+    file: String,
+    /// What the file says itself, where it is a scene file.
+    scene_file: Option<SceneFileInfo>,
+    /// The model, or those that a scene file places, each placing once.
     models: Vec<ModelInfo>,
-    spheres: usize,
-    planes: usize,
-    /// In the whole, each light once for every node that places it.
-    lights: usize,
     /// Parts of meshes in their places.
     instances: usize,
-    /// Of all instances.
-    triangles_drawn: u64,
+    drawn: Drawn,
     /// Least and greatest corner in the world; `None` where nothing has bounds.
     bounds: Option<[[f32; 3]; 2]>,
     warnings: Vec<String>,
 }
 
+/// What stands in the scene, each thing as often as it is placed.
 #[derive(Serialize)]
-struct ModelInfo {
-    file: PathBuf,
-    format: String,
-    scenes: Vec<String>,
-    nodes: usize,
-    meshes: Vec<String>,
-    triangles: usize,
-    points: usize,
-    lines: usize,
-    materials: Vec<String>,
-    textures: Vec<Texture>,
-    lights: Vec<String>,
-    cameras: Vec<String>,
-    animations: Vec<String>,
-    extensions: Vec<Extension>,
+struct Drawn {
+    triangles: u64,
+    spheres: u64,
+    planes: u64,
+    lights: u64,
 }
 
-#[derive(Serialize)]
-struct Texture {
-    name: String,
-    /// Width and height; `None` where it could not be read.
-    size: Option<(u32, u32)>,
-}
-
-#[derive(Serialize)]
-struct Extension {
-    name: String,
-    required: bool,
-    honoured: bool,
-}
+/// A line: what it is about, and what is said of it.
+type Line = (&'static str, String);
 
 /// Tells what is in a file.
 pub(super) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let asset = load::open(&arguments.input).map_err(Failure::usage_or_scene)?;
-    let info = Info::of(&asset)?;
+    let viewpoint = Viewpoint {
+        aspect: 1.0,
+        camera: CameraChoice::OfFile,
+        fov_y: None,
+        background: None,
+    };
+    let (scene, _) = asset
+        .scene(0.0, &viewpoint)
+        .map_err(Failure::usage_or_scene)?;
+    let info = Info::of(&asset, &scene);
     if arguments.json {
-        let json = serde_json::to_string_pretty(&info).map_err(Failure::output)?;
-        return print_bytes(format!("{json}\n").as_bytes());
+        return print::json(&info);
     }
-    print_bytes(info.in_words().as_bytes())
+    print::to_stdout(info.in_words().as_bytes())
 }
 
 impl Info {
-    fn of(asset: &Asset) -> Result<Info, Failure> {
-        let viewpoint = Viewpoint {
-            aspect: 1.0,
-            camera: CameraChoice::OfFile,
-            fov_y: None,
-            background: None,
-        };
-        let (scene, _) = asset
-            .scene(0.0, &viewpoint)
-            .map_err(Failure::usage_or_scene)?;
+    fn of(asset: &Asset, scene: &Scene) -> Info {
+        let models = asset.models.iter().map(|placed| &placed.model);
         let bounds = scene.bounds();
-        let analytic = (scene.spheres().len() + scene.planes().len()) as u64;
-        let placed = |m: &Model| {
-            m.placed_nodes()
-                .iter()
-                .filter(|(node, _)| node.light.is_some())
-                .count()
-        };
-        Ok(Info {
-            file: asset.file.clone(),
-            models: asset
-                .models
-                .iter()
-                .map(|placed| ModelInfo::of(&placed.model))
-                .collect(),
-            spheres: scene.spheres().len(),
-            planes: scene.planes().len(),
-            lights: asset.lights.len()
-                + asset.models.iter().map(|m| placed(&m.model)).sum::<usize>(),
+        Info {
+            file: print::path(&asset.file),
+            scene_file: asset.is_scene_file.then(|| SceneFileInfo::of(asset)),
+            models: models.map(ModelInfo::of).collect(),
             instances: scene.instances().len(),
-            triangles_drawn: u64::from(scene.primitive_count()) - analytic,
+            drawn: Drawn::of(asset, scene),
             bounds: (!bounds.is_empty()).then(|| [bounds.min.to_array(), bounds.max.to_array()]),
             warnings: asset.warnings.iter().map(ToString::to_string).collect(),
-        })
+        }
     }
 
     fn in_words(&self) -> String {
-        let mut lines = vec![self.file.display().to_string()];
+        let mut lines: Vec<Line> = Vec::new();
+        if let Some(scene_file) = &self.scene_file {
+            lines.extend(scene_file.in_words());
+        }
         for model in &self.models {
-            lines.extend(model.in_words(&self.file));
+            if self.scene_file.is_some() {
+                lines.push(("model", model.file.clone()));
+            }
+            lines.extend(model.in_words());
         }
-        if self.spheres + self.planes > 0 {
-            lines.push(format!("  spheres     {}", self.spheres));
-            lines.push(format!("  planes      {}", self.planes));
-        }
-        lines.push(format!(
-            "  instances   {}, {} triangles in all",
-            self.instances,
-            HumanCount(self.triangles_drawn)
-        ));
-        lines.push(format!("  lights on   {}", self.lights));
-        if let Some([min, max]) = self.bounds {
-            let point = |p: [f32; 3]| p.map(|x| x.to_string()).join(", ");
-            lines.push(format!(
-                "  bounds      ({}) to ({})",
-                point(min),
-                point(max)
-            ));
-        }
-        lines.extend(
-            self.warnings
-                .iter()
-                .map(|warning| format!("  warning     {warning}")),
-        );
-        lines.join("\n") + "\n"
+        lines.push(("instances", self.instances.to_string()));
+        lines.push(("drawn", self.drawn.in_words()));
+        let bounds = self.bounds.map_or("none".into(), |[min, max]| {
+            format!("({}) to ({})", point(min), point(max))
+        });
+        lines.push(("bounds", bounds));
+        let warnings = self.warnings.iter();
+        lines.extend(warnings.map(|warning| ("warning", warning.clone())));
+        let lines = lines
+            .iter()
+            .map(|(what, text)| format!("  {what:<11} {}\n", print::one_line(text)));
+        lines.fold(print::one_line(&self.file) + "\n", |text, line| {
+            text + &line
+        })
     }
 }
 
-impl ModelInfo {
-    fn of(model: &Model) -> ModelInfo {
-        let facts = &model.facts;
-        let texture = |t: &load::TextureFacts| Texture {
-            name: t.name.clone(),
-            size: t.size,
-        };
-        let extension = |e: &load::ExtensionFacts| Extension {
-            name: e.name.clone(),
-            required: e.required,
-            honoured: e.honoured,
-        };
-        // The last material is luch's own, for parts without one.
-        let materials = model.materials.len().saturating_sub(1);
-        ModelInfo {
-            file: model.file.clone(),
-            format: facts.format.clone(),
-            scenes: facts.scenes.clone(),
-            nodes: model.nodes.len(),
-            meshes: model
-                .shapes
-                .iter()
-                .map(|shape| shape.name.clone())
-                .collect(),
-            triangles: facts.triangles,
-            points: facts.points,
-            lines: facts.lines,
-            materials: model
-                .materials
-                .iter()
-                .take(materials)
-                .map(|m| m.name.clone())
-                .collect(),
-            textures: facts.textures.iter().map(texture).collect(),
-            lights: model
-                .lights
-                .iter()
-                .map(|light| light.name.clone())
-                .collect(),
-            cameras: model
-                .cameras
-                .iter()
-                .map(|camera| camera.name.clone())
-                .collect(),
-            animations: facts.animations.clone(),
-            extensions: facts.extensions.iter().map(extension).collect(),
+impl Drawn {
+    fn of(asset: &Asset, scene: &Scene) -> Drawn {
+        let [spheres, planes] = [scene.spheres().len(), scene.planes().len()].map(|n| n as u64);
+        // Not the scene's own: those include luch's, for a file without any.
+        let of_models = asset.models.iter().flat_map(|m| m.model.placed_nodes());
+        let of_models = of_models.filter(|(node, _)| node.light.is_some()).count();
+        Drawn {
+            triangles: u64::from(scene.primitive_count()) - spheres - planes,
+            spheres,
+            planes,
+            lights: (asset.lights.len() + of_models) as u64,
         }
     }
 
-    fn in_words(&self, of_file: &PathBuf) -> Vec<String> {
-        let mut lines = Vec::new();
-        if &self.file != of_file {
-            lines.push(format!("  model       {}", self.file.display()));
-        }
-        let mut say = |what: &str, text: String| lines.push(format!("  {what:<11} {text}"));
-        say("format", self.format.clone());
-        say("scenes", listed(&self.scenes));
-        say("nodes", self.nodes.to_string());
-        say("meshes", listed(&self.meshes));
-        say("triangles", HumanCount(self.triangles as u64).to_string());
-        if self.points + self.lines > 0 {
-            say(
-                "not drawn",
-                format!("{} points, {} lines", self.points, self.lines),
-            );
-        }
-        say("materials", listed(&self.materials));
-        let size = |t: &Texture| {
-            t.size
-                .map_or("unreadable".into(), |(w, h)| format!("{w} x {h}"))
-        };
-        let textures: Vec<String> = self
-            .textures
-            .iter()
-            .map(|t| format!("{} ({})", t.name, size(t)))
+    fn in_words(&self) -> String {
+        let kinds = [
+            (self.triangles, "triangle", "triangles"),
+            (self.spheres, "sphere", "spheres"),
+            (self.planes, "plane", "planes"),
+            (self.lights, "light", "lights"),
+        ];
+        let there = kinds.into_iter().filter(|(count, ..)| *count > 0);
+        let there: Vec<String> = there
+            .map(|(count, one, many)| counted(count, one, many))
             .collect();
-        say("textures", listed(&textures));
-        say("lights", listed(&self.lights));
-        say("cameras", listed(&self.cameras));
-        say("animations", listed(&self.animations));
-        for extension in &self.extensions {
-            let required = if extension.required {
-                "required"
-            } else {
-                "used"
-            };
-            let honoured = if extension.honoured {
-                "honoured"
-            } else {
-                "ignored"
-            };
-            say(
-                "extension",
-                format!("{} ({required}, {honoured})", extension.name),
-            );
-        }
-        lines
+        there.join(", ")
     }
+}
+
+/// A point in six significant digits.
+fn point(p: [f32; 3]) -> String {
+    let rounded = p.map(|x| {
+        format!("{x:.5e}")
+            .parse()
+            .unwrap_or(f64::from(x))
+            .to_string()
+    });
+    rounded.join(", ")
 }
 
 /// How many, and the names of the first few.
-fn listed(names: &[String]) -> String {
+fn listed<S: AsRef<str>>(names: &[S]) -> String {
     const SHOWN: usize = 8;
     let named: Vec<&str> = names
         .iter()
-        .map(String::as_str)
+        .map(AsRef::as_ref)
         .filter(|name| !name.is_empty())
         .take(SHOWN)
         .collect();

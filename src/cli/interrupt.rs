@@ -1,7 +1,8 @@
 //! Ctrl-C: ends at once, and leaves no partial file.
 
-use std::path::Path;
-use std::path::PathBuf;
+use luch::Error;
+use luch::output::Destination;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The exit code after an interrupt, 128 and the number of SIGINT.
@@ -20,11 +21,8 @@ impl Interrupt {
         let on_signal = interrupt.clone();
         // Without a handler Ctrl-C still ends the program; only the temporary file would stay.
         let _ = ctrlc::set_handler(move || {
-            let files = on_signal
-                .temporary
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner);
-            for file in files.iter() {
+            let files = on_signal.temporary.lock();
+            for file in files.unwrap_or_else(PoisonError::into_inner).iter() {
                 let _ = std::fs::remove_file(file);
             }
             std::process::exit(INTERRUPTED);
@@ -32,11 +30,15 @@ impl Interrupt {
         interrupt
     }
 
-    /// Removes `file` when the program is interrupted.
-    pub(super) fn remove_on_interrupt(&self, file: &Path) {
-        self.temporary
+    /// Claims a destination, whose temporary file an interrupt then removes.
+    pub(super) fn claim(&self, path: &Path) -> Result<Destination, Error> {
+        // Locked until the file is on the list, so that an interrupt never comes between.
+        let mut temporary = self
+            .temporary
             .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .push(file.to_owned());
+            .unwrap_or_else(PoisonError::into_inner);
+        let destination = Destination::claim(path)?;
+        temporary.push(destination.temporary_path().to_owned());
+        Ok(destination)
     }
 }

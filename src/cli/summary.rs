@@ -1,26 +1,59 @@
 //! What a render says of itself: in words, or as JSON.
 
 use super::arguments::RenderArguments;
-use super::{Failure, print_bytes};
+use super::{Failure, print};
 use indicatif::{HumanBytes, HumanCount};
 use luch::accel::Accel;
-use luch::film::Statistics;
+use luch::film::{Film, Statistics};
 use luch::load::{Asset, Choices};
-use luch::output::Display;
+use luch::output::Options;
 use luch::render::Settings;
 use luch::scene::Scene;
+use luch::whitted::MAX_LAYERS;
+use print::counted;
 use serde::Serialize;
-use std::fmt::Write;
 use std::path::PathBuf;
-use std::time::Duration;
 
-/// What went in, what was chosen, what came out, and what it took.
+/// Says what was ignored, and what was chosen for the user, before the wait.
+pub(super) fn announce(arguments: &RenderArguments, asset: &Asset, choices: &Choices) {
+    if arguments.quiet {
+        return;
+    }
+    asset
+        .warnings
+        .iter()
+        .for_each(|warning| warn(&warning.to_string()));
+    let mut lines = choices.lines.clone();
+    if arguments.verbose {
+        let read = asset.files.iter();
+        lines.extend(read.map(|file| format!("read {}", print::path(file))));
+    }
+    if !arguments.json {
+        // Whoever does not get these lines will not get the summary either, and that tells.
+        let _ = say(&lines, arguments);
+    }
+}
+
+/// Everything that a render is made of.
+pub(super) struct Done<'a> {
+    pub(super) asset: &'a Asset,
+    pub(super) choices: &'a Choices,
+    pub(super) scene: &'a Scene,
+    pub(super) accel: &'a Accel,
+    pub(super) settings: &'a Settings,
+    pub(super) film: &'a Film,
+    pub(super) options: &'a Options,
+    pub(super) written: &'a [PathBuf],
+    pub(super) seconds: Seconds,
+}
+
+/// What went in, what was chosen, what came out, and what it took: the fields of `--json`.
 #[derive(Serialize)]
 pub(super) struct Summary {
-    input: PathBuf,
-    files_read: Vec<PathBuf>,
+    input: String,
+    files_read: Vec<String>,
     /// The files that were written.
-    pub(super) outputs: Vec<PathBuf>,
+    outputs: Vec<String>,
     width: u32,
     height: u32,
     samples: u32,
@@ -31,6 +64,7 @@ pub(super) struct Summary {
     scene: SceneCounts,
     bvh: Bvh,
     rays: Rays,
+    threads: usize,
     seconds: Seconds,
 }
 
@@ -51,66 +85,47 @@ struct Bvh {
     sah_cost: f32,
 }
 
-#[derive(Default, Serialize)]
+#[derive(Serialize)]
 struct Rays {
     camera: u64,
     transparent: u64,
     shadow: u64,
     mirror: u64,
     total: u64,
+    /// Of the total, those that stopped before they had passed every transparent layer.
+    lost_in_layers: u64,
     millions_per_second: f64,
 }
 
 /// What each phase took.
-#[derive(Default, Serialize)]
+#[derive(Clone, Copy, Serialize)]
 pub(super) struct Seconds {
-    load: f64,
-    build: f64,
-    render: f64,
-    write: f64,
-}
-
-impl Seconds {
-    pub(super) fn of(
-        load: Duration,
-        build: Duration,
-        render: Duration,
-        write: Duration,
-    ) -> Seconds {
-        let [load, build, render, write] =
-            [load, build, render, write].map(|phase| phase.as_secs_f64());
-        Seconds {
-            load,
-            build,
-            render,
-            write,
-        }
-    }
+    pub(super) load: f64,
+    pub(super) build: f64,
+    pub(super) render: f64,
+    pub(super) write: f64,
 }
 
 impl Summary {
-    /// What is known before the first ray.
-    pub(super) fn new(
-        asset: &Asset,
-        scene: &Scene,
-        accel: &Accel,
-        settings: &Settings,
-        choices: Choices,
-        (display, exposure): (Display, f32),
-    ) -> Summary {
+    pub(super) fn of(done: Done) -> Summary {
+        let Done {
+            asset, scene, film, ..
+        } = done;
         let (spheres, planes) = (scene.spheres().len(), scene.planes().len());
-        let statistics = accel.statistics();
+        let tree = done.accel.statistics();
+        let mut warnings: Vec<String> = asset.warnings.iter().map(ToString::to_string).collect();
+        warnings.extend(lost_in_layers(film.statistics.lost_in_layers));
         Summary {
-            input: asset.file.clone(),
-            files_read: asset.files.clone(),
-            outputs: Vec::new(),
-            width: settings.width(),
-            height: settings.height(),
-            samples: settings.samples(),
-            display: display.name(),
-            exposure,
-            choices: choices.lines,
-            warnings: asset.warnings.iter().map(ToString::to_string).collect(),
+            input: print::path(&asset.file),
+            files_read: asset.files.iter().map(|file| print::path(file)).collect(),
+            outputs: done.written.iter().map(|file| print::path(file)).collect(),
+            width: film.width,
+            height: film.height,
+            samples: done.settings.samples(),
+            display: done.options.display.name(),
+            exposure: done.options.exposure,
+            choices: done.choices.lines.clone(),
+            warnings,
             scene: SceneCounts {
                 triangles: u64::from(scene.primitive_count()) - (spheres + planes) as u64,
                 spheres,
@@ -118,157 +133,130 @@ impl Summary {
                 lights: scene.lights().len(),
             },
             bvh: Bvh {
-                nodes: statistics.nodes,
-                leaves: statistics.leaves,
-                depth: statistics.depth,
-                bytes: statistics.bytes,
-                sah_cost: statistics.sah_cost,
+                nodes: tree.nodes,
+                leaves: tree.leaves,
+                depth: tree.depth,
+                bytes: tree.bytes,
+                sah_cost: tree.sah_cost,
             },
-            rays: Rays::default(),
-            seconds: Seconds::default(),
+            rays: Rays::of(&film.statistics),
+            threads: rayon::current_num_threads(),
+            seconds: done.seconds,
         }
-    }
-
-    /// Says what was ignored, and what was chosen for the user, before the wait.
-    pub(super) fn announce(&self, arguments: &RenderArguments, uses_stdout: bool) {
-        if arguments.quiet {
-            return;
-        }
-        for warning in &self.warnings {
-            eprintln!("warning: {warning}");
-        }
-        let mut text = String::new();
-        self.choices
-            .iter()
-            .for_each(|line| text += &format!("{line}\n"));
-        if arguments.verbose {
-            self.files_read
-                .iter()
-                .for_each(|file| text += &format!("read {}\n", file.display()));
-        }
-        if !arguments.json {
-            // Nobody who closed the pipe wants to know.
-            let _ = say(&text, uses_stdout);
-        }
-    }
-
-    /// What the render took.
-    pub(super) fn finish(&mut self, statistics: &Statistics, seconds: Seconds) {
-        if statistics.lost_in_layers > 0 {
-            let lost = HumanCount(statistics.lost_in_layers);
-            let most = luch::whitted::MAX_LAYERS;
-            self.warnings.push(format!(
-                "{lost} rays ended behind {most} transparent layers; what lies behind is missing"
-            ));
-        }
-        let total = statistics.rays();
-        self.rays = Rays {
-            camera: statistics.camera_rays,
-            transparent: statistics.transparent_rays,
-            shadow: statistics.shadow_rays,
-            mirror: statistics.mirror_rays,
-            total,
-            millions_per_second: total as f64 / 1e6 / seconds.render.max(1e-9),
-        };
-        self.seconds = seconds;
     }
 
     /// Prints it as the arguments ask.
-    pub(super) fn print(
-        &self,
-        arguments: &RenderArguments,
-        uses_stdout: bool,
-    ) -> Result<(), Failure> {
-        if arguments.json {
-            let json = serde_json::to_string_pretty(self).map_err(Failure::output)?;
-            return print_bytes(format!("{json}\n").as_bytes());
-        }
-        if arguments.quiet {
-            return Ok(());
-        }
-        if self.rays.transparent > 0
-            && let Some(lost) = self
-                .warnings
-                .last()
-                .filter(|warning| warning.contains("transparent layers"))
+    pub(super) fn print(&self, arguments: &RenderArguments) -> Result<(), Failure> {
+        if !arguments.quiet
+            && let Some(warning) = lost_in_layers(self.rays.lost_in_layers)
         {
-            eprintln!("warning: {lost}");
+            warn(&warning);
         }
-        say(&self.in_words(arguments.verbose), uses_stdout)
+        match (arguments.json, arguments.quiet) {
+            (true, _) => print::json(self),
+            (false, true) => Ok(()),
+            (false, false) => say(&self.in_words(arguments.verbose), arguments),
+        }
     }
 
-    fn in_words(&self, verbose: bool) -> String {
-        let Summary {
-            scene,
-            bvh,
-            rays,
-            seconds,
-            ..
-        } = self;
-        let count = |n: usize| HumanCount(n as u64);
-        let mut text = String::new();
-        let mut line = |what: std::fmt::Arguments| {
-            // A String never refuses.
-            let _ = writeln!(text, "{what}");
-        };
-        let mut things = vec![format!("{} triangles", HumanCount(scene.triangles))];
-        if scene.spheres + scene.planes > 0 {
-            things.push(format!(
-                "{} spheres, {} planes",
-                count(scene.spheres),
-                count(scene.planes)
-            ));
-        }
-        things.push(format!(
-            "{} nodes, {} with their primitives",
-            count(bvh.nodes),
-            HumanBytes(bvh.bytes as u64)
-        ));
-        if verbose {
-            things.push(format!(
-                "{} leaves, depth {}, SAH cost {:.1}",
-                count(bvh.leaves),
-                bvh.depth,
-                bvh.sah_cost
-            ));
-        }
-        line(format_args!("{}", things.join(", ")));
-        let kinds = [
-            (rays.camera, "camera"),
-            (rays.transparent, "behind transparent surfaces"),
-            (rays.shadow, "shadow"),
-            (rays.mirror, "mirror"),
-        ];
-        let kinds = kinds
-            .iter()
-            .filter(|(n, _)| *n > 0)
-            .map(|(n, kind)| format!("{} {kind}", HumanCount(*n)));
-        let kinds = kinds.collect::<Vec<_>>().join(", ");
-        line(format_args!(
-            "rays: {kinds}; {:.1} Mrays/s",
-            rays.millions_per_second
-        ));
+    fn in_words(&self, verbose: bool) -> Vec<String> {
         let Seconds {
             load,
             build,
             render,
             write,
-        } = seconds;
-        line(format_args!(
-            "load {load:.2} s, build {build:.2} s, render {render:.2} s, write {write:.2} s"
-        ));
-        for output in &self.outputs {
-            line(format_args!("wrote {}", output.display()));
-        }
-        text
+        } = self.seconds;
+        let mut lines = vec![
+            format!("{}, {}", self.scene.in_words(), self.bvh.in_words(verbose)),
+            self.rays.in_words(),
+            format!(
+                "load {load:.2} s, build {build:.2} s, render {render:.2} s, write {write:.2} s"
+            ),
+        ];
+        lines.extend(self.outputs.iter().map(|output| format!("wrote {output}")));
+        lines
     }
 }
 
-/// To standard output, or to standard error where that is the picture's.
-fn say(text: &str, stdout_is_taken: bool) -> Result<(), Failure> {
-    if stdout_is_taken {
-        eprint!("{text}");
+impl SceneCounts {
+    fn in_words(&self) -> String {
+        let triangles = counted(self.triangles, "triangle", "triangles");
+        if self.spheres + self.planes == 0 {
+            return triangles;
+        }
+        let spheres = counted(self.spheres as u64, "sphere", "spheres");
+        let planes = counted(self.planes as u64, "plane", "planes");
+        format!("{triangles}, {spheres}, {planes}")
+    }
+}
+
+impl Bvh {
+    fn in_words(&self, verbose: bool) -> String {
+        let nodes = counted(self.nodes as u64, "node", "nodes");
+        let bytes = HumanBytes(self.bytes as u64);
+        let text = format!("{nodes}, {bytes} with their primitives");
+        if !verbose {
+            return text;
+        }
+        let leaves = counted(self.leaves as u64, "leaf", "leaves");
+        let (depth, cost) = (self.depth, self.sah_cost);
+        format!("{text}, {leaves}, depth {depth}, SAH cost {cost:.1}")
+    }
+}
+
+impl Rays {
+    fn of(statistics: &Statistics) -> Rays {
+        let total = statistics.rays();
+        // A picture of a few pixels can take less than the clock's step.
+        let seconds = statistics.time.as_secs_f64().max(1e-9);
+        Rays {
+            camera: statistics.camera_rays,
+            transparent: statistics.transparent_rays,
+            shadow: statistics.shadow_rays,
+            mirror: statistics.mirror_rays,
+            total,
+            lost_in_layers: statistics.lost_in_layers,
+            millions_per_second: total as f64 / 1e6 / seconds,
+        }
+    }
+
+    fn in_words(&self) -> String {
+        let kinds = [
+            (self.camera, "camera"),
+            (self.transparent, "behind transparent surfaces"),
+            (self.shadow, "shadow"),
+            (self.mirror, "mirror"),
+        ];
+        let kinds = kinds.iter().filter(|(count, _)| *count > 0);
+        let kinds: Vec<String> = kinds
+            .map(|(count, kind)| format!("{} {kind}", HumanCount(*count)))
+            .collect();
+        let (kinds, speed) = (kinds.join(", "), self.millions_per_second);
+        format!("rays: {kinds}; {speed:.1} Mrays/s")
+    }
+}
+
+/// The warning about rays that met too many transparent layers, if there are any.
+fn lost_in_layers(count: u64) -> Option<String> {
+    let rays = counted(count, "ray", "rays");
+    let warning =
+        format!("{rays} ended behind {MAX_LAYERS} transparent layers; what lies behind is missing");
+    (count > 0).then_some(warning)
+}
+
+fn warn(warning: &str) {
+    print::to_stderr(&format!("warning: {warning}"));
+}
+
+/// Lines to standard output, or to standard error where that is the picture's.
+fn say(lines: &[String], arguments: &RenderArguments) -> Result<(), Failure> {
+    if arguments.picture_to_stdout() {
+        lines.iter().for_each(|line| print::to_stderr(line));
         return Ok(());
     }
-    print_bytes(text.as_bytes())
+    let text: String = lines
+        .iter()
+        .map(|line| print::one_line(line) + "\n")
+        .collect();
+    print::to_stdout(text.as_bytes())
 }

@@ -1,9 +1,12 @@
 //! Values on the command line that are more than a number or a word.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glam::Vec3;
 use luch::color::{Rgb, srgb_to_linear};
 use luch::output::Display;
 use luch::scene::{Background, Shown};
+use std::num::NonZeroU8;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// A picture's size, as in `1280x720`.
@@ -60,20 +63,56 @@ pub(super) fn vector(text: &str) -> Result<Vec3, String> {
         .map(|number| number.trim().parse())
         .collect();
     match numbers.as_deref() {
-        Ok(&[x, y, z]) => Ok(Vec3::new(x, y, z)),
-        _ => Err("expected three numbers with commas between, as in 1,2,0.5".into()),
+        Ok(&[x, y, z]) if Vec3::new(x, y, z).is_finite() => Ok(Vec3::new(x, y, z)),
+        _ => Err("expected three finite numbers with commas between, as in 1,2,0.5".into()),
     }
 }
 
-/// A display transform by its name.
-pub(super) fn display(text: &str) -> Result<Display, String> {
-    Display::ALL
-        .into_iter()
-        .find(|display| display.name() == text)
-        .ok_or_else(|| {
-            let names = Display::ALL.map(Display::name).join(", ");
-            format!("expected one of {names}")
+/// A whole number in a range.
+pub(super) fn whole_number(
+    range: RangeInclusive<u32>,
+) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
+    move |text| {
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        let (least, most) = (range.start(), range.end());
+        number.ok_or_else(|| match *most {
+            u32::MAX => format!("expected a whole number, at least {least}"),
+            _ => format!("expected a whole number from {least} to {most}"),
         })
+    }
+}
+
+/// How many primitives a leaf may have.
+pub(super) fn leaf_size(text: &str) -> Result<NonZeroU8, String> {
+    let expected = "expected a whole number from 1 to 255";
+    text.parse().map_err(|_| expected.to_owned())
+}
+
+/// A field of view in degrees.
+pub(super) fn field_of_view(text: &str) -> Result<f64, String> {
+    let angle = text
+        .parse()
+        .ok()
+        .filter(|&angle| 0.0 < angle && angle < 180.0);
+    angle.ok_or_else(|| "expected an angle above 0 and below 180 degrees".into())
+}
+
+/// An exposure: two to this power is a number.
+pub(super) fn stops(text: &str) -> Result<f32, String> {
+    let stops = text
+        .parse()
+        .ok()
+        .filter(|stops| (-100.0..=100.0).contains(stops));
+    stops.ok_or_else(|| "expected a number of stops from -100 to 100".into())
+}
+
+/// A display transform by its name.
+pub(super) fn display() -> impl TypedValueParser<Value = Display> {
+    PossibleValuesParser::new(Display::ALL.map(Display::name)).try_map(|name| {
+        let mut all = Display::ALL.into_iter();
+        all.find(|display| display.name() == name)
+            .ok_or("expected the name of a display transform")
+    })
 }
 
 #[cfg(test)]
@@ -113,6 +152,34 @@ mod tests {
     #[test]
     fn a_vector_is_three_numbers() {
         assert_eq!(vector("1,-2, .5"), Ok(Vec3::new(1.0, -2.0, 0.5)));
-        assert!(vector("1,2").is_err() && vector("1,2,3,4").is_err() && vector("a,b,c").is_err());
+        for wrong in ["1,2", "1,2,3,4", "a,b,c", "nan,0,0", "0,inf,0", "0,0,1e39"] {
+            assert!(vector(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn numbers_outside_their_range_are_told_the_range() {
+        let threads = whole_number(1..=1024);
+        assert_eq!(threads("1024"), Ok(1024));
+        for wrong in ["0", "1025", "-1", "1.5", "", "many"] {
+            let expected = "expected a whole number from 1 to 1024";
+            assert_eq!(threads(wrong), Err(expected.into()), "{wrong}");
+        }
+        let samples = whole_number(0..=u32::MAX);
+        let expected = "expected a whole number, at least 0";
+        assert_eq!(samples("-1"), Err(expected.into()));
+        assert!(leaf_size("1").is_ok() && leaf_size("0").is_err() && leaf_size("256").is_err());
+    }
+
+    #[test]
+    fn angles_and_stops_are_finite_and_in_range() {
+        assert_eq!(field_of_view("40"), Ok(40.0));
+        for wrong in ["0", "180", "-1", "nan", "inf", "wide"] {
+            assert!(field_of_view(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(stops("-1.5"), Ok(-1.5));
+        for wrong in ["nan", "inf", "-inf", "101", "bright"] {
+            assert!(stops(wrong).is_err(), "{wrong}");
+        }
     }
 }

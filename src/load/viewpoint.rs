@@ -148,17 +148,21 @@ fn camera_of_model(asset: &Asset, wanted: &str) -> Option<Camera> {
 }
 
 fn no_such_camera(asset: &Asset, wanted: &str) -> String {
-    let known: Vec<String> = (0..)
-        .zip(cameras(asset))
-        .map(|(i, PlacedCamera { name, .. })| format!("{i} \"{name}\""))
-        .collect();
-    match known.as_slice() {
-        [] => format!("there is no camera \"{wanted}\"; the file has none"),
-        _ => format!(
-            "there is no camera \"{wanted}\"; there are {}",
-            known.join(", ")
-        ),
-    }
+    const SHOWN: usize = 8;
+    let called = |(index, PlacedCamera { name, .. }): (usize, PlacedCamera)| match name.as_str() {
+        "" => index.to_string(),
+        name => format!("{index} \"{name}\""),
+    };
+    let known: Vec<String> = (0..).zip(cameras(asset)).map(called).collect();
+    let there = match known.as_slice() {
+        [] => "the file has none".into(),
+        [only] => format!("there is {only}"),
+        [first @ .., last] if first.len() < SHOWN => {
+            format!("there are {} and {last}", first.join(", "))
+        }
+        _ => format!("there are {}, ...", known[..SHOWN].join(", ")),
+    };
+    format!("there is no camera \"{wanted}\"; {there}")
 }
 
 /// The triangles of a scene, in world space.

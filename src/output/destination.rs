@@ -4,7 +4,7 @@ use super::{Format, Options, encode};
 use crate::Error;
 use crate::film::Film;
 use std::fs::{self, Permissions};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
@@ -32,9 +32,9 @@ impl Destination {
     /// The name ends in no known format; the path is a folder, a device or a pipe, or write-protected; its folder does
     /// not exist or lets no file be made in it.
     pub fn claim(path: &Path) -> Result<Destination, Error> {
-        let format = Format::of(path)?;
         let target = behind_links(path).map_err(Error::io(path, "follow"))?;
         let permissions = replaceable(path, &target)?;
+        let format = Format::of(path)?;
         let folder = match target.parent() {
             Some(folder) if folder != "" => folder,
             _ => Path::new("."),
@@ -113,7 +113,7 @@ fn behind_links(path: &Path) -> io::Result<PathBuf> {
 fn replaceable(path: &Path, target: &Path) -> Result<Option<Permissions>, Error> {
     let metadata = match fs::metadata(target) {
         Ok(metadata) => metadata,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(Error::io(path, "open")(error)),
     };
     let problem = if metadata.is_dir() {
@@ -142,5 +142,7 @@ fn temporary_file(folder: &Path, target: &Path) -> io::Result<NamedTempFile> {
         // The system takes away what the umask says.
         builder.permissions(Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder)
+    // Its error names the temporary file, of which nobody has heard.
+    let refused = |error: io::Error| io::Error::from(error.kind());
+    builder.tempfile_in(folder).map_err(refused)
 }

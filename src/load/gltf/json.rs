@@ -174,7 +174,12 @@ fn not_read(file: &Path, error: &serde_json::Error) -> Error {
         0 => String::new(),
         line => format!("line {line}, column {}", error.column()),
     };
-    Error::malformed(file, place, one_line_of_error(&problem))
+    Error::Malformed {
+        file: file.to_owned(),
+        place,
+        problem: one_line_of_error(&problem),
+        source: Some(one_line_of_error(&error.to_string()).into()),
+    }
 }
 
 /// Serde repeats a file's words, and some are long.

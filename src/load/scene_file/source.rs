@@ -37,11 +37,12 @@ impl<'a> Source<'a> {
                 // Its `Display` has five lines, a picture of the place among them.
                 let place = error.span().map(|span| self.line_and_column(span.start));
                 let problem = one_line(error.message());
-                Err(Error::malformed(
-                    self.file,
-                    place.unwrap_or_default(),
+                Err(Error::Malformed {
+                    file: self.file.to_owned(),
+                    place: place.unwrap_or_default(),
                     problem,
-                ))
+                    source: Some(error.into()),
+                })
             }
         }
     }

@@ -1,0 +1,126 @@
+//! What is in a model.
+
+use super::{Line, listed};
+use crate::cli::print::{self, counted};
+use indicatif::HumanCount;
+use luch::load::{ExtensionFacts, Model, TextureFacts};
+use serde::Serialize;
+
+/// What is in a model. Names are empty strings where the file has none.
+#[derive(Serialize)]
+pub(super) struct ModelInfo {
+    pub(super) file: String,
+    format: String,
+    scenes: Vec<String>,
+    nodes: usize,
+    meshes: Vec<String>,
+    /// Each mesh once, however often it is placed.
+    triangles: usize,
+    points: usize,
+    lines: usize,
+    materials: Vec<String>,
+    textures: Vec<Texture>,
+    lights: Vec<String>,
+    cameras: Vec<String>,
+    animations: Vec<String>,
+    extensions: Vec<Extension>,
+}
+
+#[derive(Serialize)]
+struct Texture {
+    name: String,
+    /// Width and height; `None` where no material asks for it, or it could not be read.
+    size: Option<(u32, u32)>,
+}
+
+#[derive(Serialize)]
+struct Extension {
+    name: String,
+    required: bool,
+    honoured: bool,
+}
+
+impl ModelInfo {
+    pub(super) fn of(model: &Model) -> ModelInfo {
+        let facts = &model.facts;
+        // The last material is luch's own, for parts without one.
+        let own_materials = model.materials.len().saturating_sub(1);
+        let materials = model.materials.iter().take(own_materials);
+        let texture = |TextureFacts { name, size }: &TextureFacts| Texture {
+            name: name.clone(),
+            size: *size,
+        };
+        let extension = |e: &ExtensionFacts| Extension {
+            name: e.name.clone(),
+            required: e.required,
+            honoured: e.honoured,
+        };
+        ModelInfo {
+            file: print::path(&model.file),
+            format: facts.format.clone(),
+            scenes: facts.scenes.clone(),
+            nodes: model.nodes.len(),
+            meshes: model.shapes.iter().map(|mesh| mesh.name.clone()).collect(),
+            triangles: facts.triangles,
+            points: facts.points,
+            lines: facts.lines,
+            materials: materials.map(|m| m.name.clone()).collect(),
+            textures: facts.textures.iter().map(texture).collect(),
+            lights: model.lights.iter().map(|l| l.name.clone()).collect(),
+            cameras: model.cameras.iter().map(|c| c.name.clone()).collect(),
+            animations: facts.animations.clone(),
+            extensions: facts.extensions.iter().map(extension).collect(),
+        }
+    }
+
+    pub(super) fn in_words(&self) -> Vec<Line> {
+        let textures: Vec<String> = self.textures.iter().map(Texture::in_words).collect();
+        let mut lines = vec![
+            ("format", self.format.clone()),
+            ("scenes", listed(&self.scenes)),
+            ("nodes", self.nodes.to_string()),
+            ("meshes", listed(&self.meshes)),
+            ("triangles", HumanCount(self.triangles as u64).to_string()),
+        ];
+        if self.points + self.lines > 0 {
+            let points = counted(self.points as u64, "point", "points");
+            let segments = counted(self.lines as u64, "line", "lines");
+            lines.push(("not drawn", format!("{points}, {segments}")));
+        }
+        lines.extend([
+            ("materials", listed(&self.materials)),
+            ("textures", listed(&textures)),
+            ("lights", listed(&self.lights)),
+            ("cameras", listed(&self.cameras)),
+            ("animations", listed(&self.animations)),
+        ]);
+        if self.extensions.is_empty() {
+            lines.push(("extensions", "0".into()));
+        }
+        let extensions = self.extensions.iter();
+        lines.extend(extensions.map(|extension| ("extension", extension.in_words())));
+        lines
+    }
+}
+
+impl Texture {
+    fn in_words(&self) -> String {
+        match self.size {
+            Some((width, height)) => format!("{} ({width} x {height})", self.name),
+            None => format!("{} (not read)", self.name),
+        }
+    }
+}
+
+impl Extension {
+    fn in_words(&self) -> String {
+        let Extension {
+            name,
+            required,
+            honoured,
+        } = self;
+        let required = if *required { "required" } else { "used" };
+        let honoured = if *honoured { "honoured" } else { "ignored" };
+        format!("{name} ({required}, {honoured})")
+    }
+}

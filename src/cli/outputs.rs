@@ -1,0 +1,95 @@
+//! Where the picture goes: claimed before it is made, and never a file that was read.
+
+use super::arguments::{RenderArguments, is_stdout};
+use super::interrupt::Interrupt;
+use super::{Failure, print};
+use luch::film::Film;
+use luch::output::{self, Destination, Format, Options};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Every place that the picture goes to.
+pub(super) struct Outputs {
+    files: Vec<Destination>,
+    /// What goes to standard output, if anything does.
+    to_stdout: Option<Format>,
+}
+
+impl Outputs {
+    /// Makes sure that the picture can be written to where the arguments say, or into the current folder under the
+    /// name of `input`.
+    pub(super) fn claim(
+        arguments: &RenderArguments,
+        input: &Path,
+        interrupt: &Interrupt,
+    ) -> Result<Outputs, Failure> {
+        let to_stdout = arguments
+            .picture_to_stdout()
+            .then(|| arguments.format.into());
+        if to_stdout.is_some() && arguments.json {
+            return Err(Failure::usage_or_scene(
+                "-o - and --json both want standard output; give the picture a name",
+            ));
+        }
+        let stem = input.file_stem().unwrap_or(input.as_os_str());
+        let beside_nothing = [PathBuf::from(stem).with_added_extension("png")];
+        let paths = match arguments.outputs.as_slice() {
+            [] => &beside_nothing,
+            given => given,
+        };
+        let mut files = Vec::new();
+        for path in paths.iter().filter(|path| !is_stdout(path)) {
+            files.push(interrupt.claim(path).map_err(Failure::output)?);
+        }
+        let places: Vec<PathBuf> = paths.iter().map(|path| place(path)).collect();
+        match (1..paths.len()).find(|&i| places[..i].contains(&places[i])) {
+            Some(twice) => Err(Failure::usage_or_scene(format!(
+                "{}: is given twice as an output",
+                print::path(&paths[twice])
+            ))),
+            None => Ok(Outputs { files, to_stdout }),
+        }
+    }
+
+    /// Refuses to overwrite what was read.
+    pub(super) fn spare(&self, read: &[PathBuf]) -> Result<(), Failure> {
+        let read: Vec<PathBuf> = read.iter().map(|file| place(file)).collect();
+        let mut outputs = self.files.iter().map(Destination::path);
+        match outputs.find(|output| read.contains(&place(output))) {
+            Some(output) => Err(Failure::usage_or_scene(format!(
+                "{}: was read for this picture; choose another output",
+                print::path(output)
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes every output; the paths of the files.
+    pub(super) fn write(self, film: &Film, options: &Options) -> Result<Vec<PathBuf>, Failure> {
+        let mut written = Vec::new();
+        for destination in self.files {
+            let path = destination.path().to_owned();
+            destination.write(film, options).map_err(Failure::output)?;
+            written.push(path);
+        }
+        if let Some(format) = self.to_stdout {
+            let mut bytes = Vec::new();
+            let name = Path::new("standard output");
+            output::encode(film, format, options, name, &mut bytes).map_err(Failure::output)?;
+            print::to_stdout(&bytes)?;
+        }
+        Ok(written)
+    }
+}
+
+/// The one spelling of a path, links followed; of a file that is still to come, its folder's and its name.
+fn place(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| {
+        let folder = match path.parent() {
+            Some(folder) if folder != "" => folder,
+            _ => Path::new("."),
+        };
+        let folder = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+        folder.join(path.file_name().unwrap_or_default())
+    })
+}
