@@ -3,6 +3,7 @@
 mod accel;
 mod analytic;
 mod assets;
+mod cli;
 mod common;
 mod invariance;
 mod load_gltf;

@@ -81,7 +81,7 @@ pub(super) struct RenderArguments {
     pub(super) format: FormatValue,
 
     /// The picture's size in pixels [default: the scene file's, or 640x480; 1280x720 for models]
-    #[arg(long, value_name = "WxH", conflicts_with_all = ["width", "height"])]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, conflicts_with_all = ["width", "height"])]
     pub(super) size: Option<Size>,
 
     /// The picture's width in pixels

@@ -8,6 +8,7 @@ use super::progress;
 use super::summary::{self, Done, Seconds, Summary};
 use super::values::{BackgroundValue, Size};
 use glam::Vec3;
+use luch::Error;
 use luch::accel::{self, Accel};
 use luch::camera::Camera;
 use luch::load::{self, Asset, CameraChoice, Choices, Viewpoint};
@@ -99,7 +100,20 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
         arguments.max_depth.or(picture.max_depth).unwrap_or(5),
         shading.unwrap_or_default(),
     )
-    .map_err(Failure::usage_or_scene)
+    .map_err(|error| {
+        let asked = [
+            asked_width,
+            asked_height,
+            arguments.samples,
+            arguments.max_depth,
+        ];
+        if asked.iter().any(Option::is_some) {
+            Failure::usage_or_scene(error)
+        } else {
+            let problem = error.to_string();
+            Failure::usage_or_scene(Error::malformed(&asset.file, "[render]", problem))
+        }
+    })
 }
 
 /// The vertical field of view that goes with `--eye`, in degrees.
