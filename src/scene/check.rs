@@ -1,6 +1,6 @@
 //! What a description must be before it is a scene.
 
-use super::{SceneDescription, SceneError};
+use super::{InstanceSpace, PlacedInstance, SceneDescription, SceneError};
 use crate::camera::{Camera, Fov, Projection};
 use crate::color::Rgb;
 use crate::light::{Light, LightKind};
@@ -52,6 +52,30 @@ pub(super) fn check(scene: &SceneDescription) -> Result<(), SceneError> {
             return Err(SceneError::NotFinite {
                 what: what(),
                 field: "its transform's elements",
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Huge but finite positions can leave the range of numbers on their way into the world.
+pub(super) fn check_placed(
+    meshes: &[Mesh],
+    instances: &[PlacedInstance],
+) -> Result<(), SceneError> {
+    for (i, instance) in instances.iter().enumerate() {
+        let fits = match &instance.space {
+            Some(InstanceSpace { bounds, .. }) => bounds.is_empty() || bounds.extent().is_finite(),
+            None => meshes[instance.mesh as usize]
+                .positions
+                .iter()
+                .all(|p| p.is_finite()),
+        };
+        if !fits {
+            let what = named("instance", i, &instance.name);
+            return Err(SceneError::NotFinite {
+                what,
+                field: "its positions in the world",
             });
         }
     }
