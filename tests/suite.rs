@@ -4,6 +4,7 @@ mod accel;
 mod analytic;
 mod assets;
 mod common;
+mod golden;
 mod invariance;
 mod load_gltf;
 mod load_obj;
