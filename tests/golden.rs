@@ -139,8 +139,8 @@ fn a_transparent_sphere_shows_what_is_behind_it_and_casts_a_light_shadow() {
         panic!("figure 3 has a camera")
     };
     let mut behind: Object<_> = spheres[0].clone();
-    behind.shape.center += glam::Vec3::new(0.9, -0.3, 1.6);
-    behind.shape.radius = 0.7;
+    behind.shape.center += glam::Vec3::new(-1.0, -0.1, 1.2);
+    behind.shape.radius = 0.9;
     behind.material = materials.len() as u32;
     materials.push(luch::material::Material::matt(
         "behind",
