@@ -119,7 +119,7 @@ fn an_unfinished_film_is_never_written() {
     let error = encode(&unfinished, Format::Png, &options, Path::new("a"), &mut out).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "a: the film: is not finished, its render was cancelled"
+        "a: is not finished, its render was cancelled"
     );
     assert!(out.is_empty());
 }
