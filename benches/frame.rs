@@ -18,6 +18,7 @@ pub(crate) fn whole_frames(criterion: &mut Criterion) {
             camera: CameraChoice::OfFile,
             fov_y: None,
             background: None,
+            exposure: None,
         };
         let Ok((scene, _)) = scene_file::open(&path).and_then(|asset| asset.scene(0.0, &viewpoint))
         else {

@@ -11,14 +11,15 @@
 //!
 //! let asset = load::open(Path::new("assets/models/cube.glb"))?;
 //! let camera = CameraChoice::OfFile;
-//! let viewpoint = Viewpoint { aspect: 4.0 / 3.0, camera, fov_y: None, background: None };
+//! let viewpoint =
+//!     Viewpoint { aspect: 4.0 / 3.0, camera, fov_y: None, background: None, exposure: None };
 //! let (scene, choices) = asset.scene(0.0, &viewpoint)?;
 //!
 //! let accel = Accel::build(&scene, &Options::default());
 //! let settings = Settings::new(640, 480, 4, 5, Shading::BlinnPhong)?;
 //! let film = render(&scene, &accel, &settings, &Progress::default());
 //!
-//! Destination::claim(Path::new("cube.png"))?.write(&film, &output::Options::default())?;
+//! Destination::claim(Path::new("cube.png"))?.write(&film, &output::Options { exposure: choices.exposure, ..Default::default() })?;
 //! choices.lines.iter().for_each(|line| println!("{line}"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

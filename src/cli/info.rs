@@ -75,6 +75,7 @@ impl Info {
             camera: CameraChoice::OfFile,
             fov_y: None,
             background: None,
+            exposure: None,
         };
         let (scene, _) = asset
             .scene(0.0, &viewpoint)

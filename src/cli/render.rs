@@ -53,7 +53,7 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     } else {
         Display::PbrNeutral
     });
-    let exposure = arguments.exposure.or(choices.exposure).unwrap_or(0.0);
+    let exposure = choices.exposure;
     let mut summary = Summary::new(
         &asset,
         &scene,
@@ -146,6 +146,7 @@ fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Viewpoint {
         background: arguments
             .background
             .map(|BackgroundValue(background)| background),
+        exposure: arguments.exposure,
     }
 }
 
