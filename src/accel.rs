@@ -50,7 +50,7 @@ pub enum Preset {
 /// instances one above those. Planes have no bounds and stand beside.
 #[derive(Clone, Debug)]
 pub struct Accel {
-    planes: Vec<BesideTree>,
+    planes: Vec<NumberedPlane>,
     world: Tree<WorldPrimitive>,
     meshes: Vec<Tree<MeshTriangle>>,
     instances: Tree<SharedInstance>,
@@ -58,9 +58,9 @@ pub struct Accel {
     statistics: Statistics,
 }
 
-/// A plane with its number.
+/// A plane, which no box can hold, with its number.
 #[derive(Clone, Copy, Debug)]
-struct BesideTree {
+struct NumberedPlane {
     plane: Plane,
     number: u32,
     opaque: bool,
@@ -101,7 +101,7 @@ impl Accel {
         let first_plane = scene.spheres().len() as u32;
         let planes = (first_plane..)
             .zip(scene.planes())
-            .map(|(number, p)| BesideTree {
+            .map(|(number, p)| NumberedPlane {
                 plane: p.shape,
                 number,
                 opaque: opaque(p.material),
@@ -224,7 +224,7 @@ impl Accel {
     fn any(&self, ray: &Ray, stacks: &mut Stacks) -> bool {
         let probe = Probe::new(*ray, self.world.extent());
         let plane_hit =
-            |p: &BesideTree| p.opaque && primitive::plane(&p.plane, ray, p.number).is_some();
+            |p: &NumberedPlane| p.opaque && primitive::plane(&p.plane, ray, p.number).is_some();
         if self.planes.iter().any(plane_hit) {
             return true;
         }

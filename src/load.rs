@@ -5,6 +5,7 @@ pub mod obj;
 pub mod scene_file;
 
 mod asset;
+mod exposure;
 mod files;
 mod images;
 mod model;

@@ -71,8 +71,8 @@ pub enum BitDepth {
 ///
 /// # Errors
 ///
-/// `out` refuses, or the film is none: it has no pixels, too many for a file, no beauty, or a layer without all its
-/// values.
+/// `out` refuses, or the film is no picture: its render was cancelled, it has no pixels, too many for a file, no beauty,
+/// or a layer without all its values.
 pub fn encode(
     film: &Film,
     format: Format,
@@ -95,6 +95,9 @@ const MAX_SIDE: u32 = i32::MAX as u32 / 2;
 fn check(film: &Film) -> Result<(), String> {
     let (width, height) = (film.width, film.height);
     let sides = 1..=MAX_SIDE;
+    if !film.complete {
+        return Err("is not finished, its render was cancelled".into());
+    }
     if !sides.contains(&width) || !sides.contains(&height) {
         return Err(format!(
             "the film is {width} x {height} pixels, expected 1 to {MAX_SIDE} each way"

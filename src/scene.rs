@@ -141,6 +141,7 @@ impl Scene {
         let first_triangle = (description.spheres.len() + description.planes.len()) as u32;
         let (meshes, instances) =
             layout::place(description.meshes, description.instances, first_triangle);
+        check::check_placed(&meshes, &instances)?;
         Ok(Scene {
             camera: description.camera,
             background: description.background,

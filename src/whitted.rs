@@ -200,33 +200,15 @@ impl<'a> Tracer<'a> {
                 ..
             } = lit.light;
             let v = -path.ray.direction;
-            let e = irradiance * self.transmitted(ray);
+            let (share, lost) = transmitted(self.scene, self.accel, ray);
+            self.statistics.lost_in_layers += u64::from(lost);
+            let e = irradiance * share;
             let reflected =
                 self.rules
                     .shading
                     .reflected(&surface.reflectance, surface.normal, l, v, e);
             samples[path.sample].color += arrivals[lit.arrival].weight() * reflected;
         }
-    }
-
-    /// The share of a shadow ray's light that transparent surfaces let through; nothing opaque lies on the ray.
-    fn transmitted(&self, shadow_ray: &Ray) -> f32 {
-        let mut share = 1.0;
-        if !self.accel.has_transparent() {
-            return share;
-        }
-        let mut ray = *shadow_ray;
-        for _ in 0..MAX_LAYERS {
-            let Some(hit) = self.accel.intersect(&ray) else {
-                break;
-            };
-            share *= 1.0 - self.scene.shadow_coverage(&hit);
-            if share == 0.0 {
-                break;
-            }
-            ray = ray.beyond(hit.t, hit.primitive);
-        }
-        share
     }
 
     /// Sends on the mirror ray, as long as it still matters.
@@ -317,6 +299,27 @@ impl Arrival {
             light.distance * (1.0 - 1e-6),
         )
     }
+}
+
+/// The share of a shadow ray's light that transparent surfaces let through, nothing opaque being on the ray, and whether
+/// there were too many of them.
+fn transmitted(scene: &Scene, accel: &Accel, shadow_ray: &Ray) -> (f32, bool) {
+    let mut share = 1.0;
+    if !accel.has_transparent() {
+        return (share, false);
+    }
+    let mut ray = *shadow_ray;
+    for _ in 0..MAX_LAYERS {
+        let Some(hit) = accel.intersect(&ray) else {
+            return (share, false);
+        };
+        share *= 1.0 - scene.shadow_coverage(&hit);
+        if share == 0.0 {
+            return (share, false);
+        }
+        ray = ray.beyond(hit.t, hit.primitive);
+    }
+    (share, accel.intersect(&ray).is_some())
 }
 
 /// The depth of a camera ray is that of the first surface that is there at all.

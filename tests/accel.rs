@@ -153,7 +153,7 @@ fn no_ray_from_inside_leaves_a_closed_mesh() {
 fn shared_instances_look_like_copies_in_the_world() {
     let place = |i: usize| {
         let turn = DQuat::from_rotation_y(i as f64);
-        let scale = if i % 2 == 0 {
+        let scale = if i.is_multiple_of(2) {
             DVec3::new(1.0, 0.5, 2.0)
         } else {
             DVec3::new(-1.0, 1.0, 1.0)

@@ -1,16 +1,17 @@
 //! Pictures whose answer is known on paper.
 
 use crate::common::scenes::half_transparent;
-use glam::Vec3;
+use glam::{DAffine3, DVec3, Vec3};
 use luch::accel::{Accel, Options};
 use luch::camera::Camera;
 use luch::color::Rgb;
 use luch::film::{BEAUTY, DEPTH, FAR_AWAY, Film};
+use luch::generate;
 use luch::geometry::{Plane, Sphere};
 use luch::light::{Falloff, Light, LightKind};
 use luch::material::{Material, Model};
 use luch::render::{Progress, Settings, render};
-use luch::scene::{Background, Object, Scene, SceneDescription, Shown};
+use luch::scene::{Background, Instance, Object, Scene, SceneDescription, Shown};
 use luch::shade::Shading;
 
 fn picture(scene: &Scene, width: u32, height: u32, samples: u32, max_depth: u32) -> Film {
@@ -375,4 +376,60 @@ fn flat_shading_is_the_diffuse_colour_alone() {
         &Progress::default(),
     );
     assert_eq!(film.beauty().next(), Some([0.5, 0.5, 0.5, 1.0]));
+}
+
+/// How many pixels that a convex thing covers are dark, though light comes from where the camera is.
+fn dark_pixels(mut description: SceneDescription, center: Vec3, distance: f32) -> (usize, usize) {
+    let toward = Vec3::new(0.3, 0.2, 0.9).normalize();
+    description.camera = camera_at(center + toward * distance, center);
+    description.lights = vec![sun(toward, 1.0)];
+    let film = picture(&Scene::new(description).expect("a scene"), 160, 160, 4, 0);
+    let covered = film.beauty().filter(|pixel| pixel[3] == 1.0);
+    let (dark, all) = covered.fold((0, 0), |(dark, all), pixel| {
+        (dark + usize::from(pixel[1] < 0.02), all + 1)
+    });
+    (dark, all)
+}
+
+#[test]
+fn nothing_convex_shadows_itself_at_any_scale_or_place() {
+    for (scale, offset) in [
+        (1.0, 0.0),
+        (1e-3, 0.0),
+        (1e3, 0.0),
+        (1.0, 1e4),
+        (100.0, 1e4),
+    ] {
+        let center = Vec3::splat(offset);
+        let to_world = DAffine3::from_scale_rotation_translation(
+            DVec3::splat(f64::from(scale)),
+            glam::DQuat::from_rotation_x(0.4),
+            center.as_dvec3(),
+        );
+        let placeholder = camera_at(Vec3::Z, Vec3::ZERO);
+        let mesh = generate::mesh_scene(generate::icosphere(5).transformed(&to_world), placeholder);
+        let ball = generate::sphere_scene(
+            vec![Sphere {
+                center,
+                radius: scale,
+            }],
+            placeholder,
+        );
+        let mut shared = generate::mesh_scene(generate::icosphere(6), placeholder);
+        // Three in one place, so that the mesh is worth sharing.
+        shared.instances = vec![
+            Instance {
+                to_world,
+                ..shared.instances[0].clone()
+            };
+            3
+        ];
+        for (name, description) in [("mesh", mesh), ("sphere", ball), ("instances", shared)] {
+            let (dark, all) = dark_pixels(description, center, 3.0 * scale);
+            assert!(
+                all > 5000 && dark == 0,
+                "{name}, scale {scale}, offset {offset}: {dark} of {all} are dark"
+            );
+        }
+    }
 }

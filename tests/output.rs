@@ -109,6 +109,22 @@ fn a_full_disk_is_an_error_wherever_it_ends() {
 }
 
 #[test]
+fn an_unfinished_film_is_never_written() {
+    let unfinished = Film {
+        complete: false,
+        ..film(1, Shown::Always, &[[1.0; 4]])
+    };
+    let mut out = Vec::new();
+    let options = Options::default();
+    let error = encode(&unfinished, Format::Png, &options, Path::new("a"), &mut out).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "a: is not finished, its render was cancelled"
+    );
+    assert!(out.is_empty());
+}
+
+#[test]
 fn a_film_without_pixels_or_beauty_is_an_error() {
     let whole = film(1, Shown::Always, &[[1.0; 4]]);
     let without_pixels = Film {

@@ -5,6 +5,7 @@ mod analytic;
 mod assets;
 mod cli;
 mod common;
+mod golden;
 mod invariance;
 mod load_gltf;
 mod load_obj;

@@ -48,6 +48,7 @@ pub(super) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         camera: CameraChoice::OfFile,
         fov_y: None,
         background: None,
+        exposure: None,
     };
     let (scene, _) = asset
         .scene(0.0, &viewpoint)

@@ -142,6 +142,7 @@ fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Result<Viewpoi
         background: arguments
             .background
             .map(|BackgroundValue(background)| background),
+        exposure: arguments.exposure,
     })
 }
 
@@ -165,7 +166,7 @@ fn output_options(
     };
     output::Options {
         display: arguments.display.unwrap_or(display),
-        exposure: arguments.exposure.or(choices.exposure).unwrap_or(0.0),
+        exposure: choices.exposure,
         bit_depth: arguments.bit_depth.into(),
         comments: Some(command_line()),
     }

@@ -30,8 +30,7 @@ impl Sphere {
         let half_b = -f.dot(d);
         let nearest = f + d * (half_b / a);
         let quarter_discriminant = a * (radius * radius - nearest.dot(nearest));
-        // Written to be false for NaN.
-        if !(quarter_discriminant >= 0.0) {
+        if quarter_discriminant < 0.0 || quarter_discriminant.is_nan() {
             return None;
         }
         // e = |f|^2 - R^2 as a product: no squares of nearly equal size are subtracted.

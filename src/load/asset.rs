@@ -100,7 +100,7 @@ impl Asset {
             .iter()
             .for_each(|placed| placed.add_to(&mut description));
         description.camera = viewpoint::camera(self, viewpoint, &description, &mut choices)?;
-        viewpoint::light(self, &mut description, &mut choices);
+        viewpoint::light(self, viewpoint, &mut description, &mut choices);
         description.background = viewpoint::background(self, viewpoint, &mut choices);
         let in_file = |problem| Error::Scene {
             file: self.file.clone(),

@@ -157,10 +157,12 @@ mod tests {
             asked(0, 4, 1),
             Err("a picture of 0 x 4 pixels has no pixels; both must be above 0".into())
         );
-        let refused = asked(100_000, 100_000, 1).unwrap_err();
+        let refused = asked(100_000, 100_000, 1).err();
         assert_eq!(
-            refused,
-            "a picture of 100000 x 100000 pixels needs 200000 MB of memory, more than the 4294 MB allowed; make it smaller"
+            refused.as_deref(),
+            Some(
+                "a picture of 100000 x 100000 pixels needs 200000 MB of memory, more than the 4294 MB allowed; make it smaller"
+            )
         );
         assert!(asked(u32::MAX, u32::MAX, 1).is_err());
     }

@@ -14,6 +14,7 @@ pub(crate) fn viewpoint(aspect: f64) -> Viewpoint {
         camera: CameraChoice::OfFile,
         fov_y: None,
         background: None,
+        exposure: None,
     }
 }
 
