@@ -31,10 +31,11 @@ impl Outputs {
                 "-o - and --json both want standard output; give the picture a name",
             ));
         }
-        let stem = input.file_stem().unwrap_or(input.as_os_str());
-        let beside_nothing = [PathBuf::from(stem).with_added_extension("png")];
+        let mut name = input.file_stem().unwrap_or(input.as_os_str()).to_owned();
+        name.push(".png");
+        let default = [PathBuf::from(name)];
         let paths = match arguments.outputs.as_slice() {
-            [] => &beside_nothing,
+            [] => &default,
             given => given,
         };
         let mut files = Vec::new();

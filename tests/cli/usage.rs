@@ -157,7 +157,7 @@ fn a_bad_value_is_told_what_is_expected() {
             "best",
             "fastest, very-fast, fast, medium, slow, very-slow",
         ),
-        ("format <FORMAT>", "jpeg", "png, exr"),
+        ("format <FORMAT>", "tga", "png, exr"),
     ] {
         let name = option.split(' ').next().unwrap_or_default();
         let error = format!(
