@@ -5,7 +5,7 @@ use crate::light::Light;
 use glam::{DVec3, Vec3};
 
 /// What a white matt surface should show where the light falls: that of a sphere in a sun of 1, by the same mean.
-const WELL_LIT: f64 = 0.6;
+const WELL_LIT: f64 = 0.51;
 /// Light from this share of `WELL_LIT` to this multiple of it is left as it is.
 const GOOD_AS_IT_IS: std::ops::RangeInclusive<f64> = 0.25..=2.0;
 /// No exposure goes further, so that what is made of it stays finite.
@@ -17,8 +17,8 @@ const POINTS: f64 = 4096.0;
 /// `None` where that is well lit or not lit at all. Shadows are not reckoned with.
 ///
 /// The mean is of logarithms, as in Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 1,
-/// each weighted with the light itself: what is dark does not count, and a bulb's next surroundings count no more than
-/// a lit room.
+/// each weighted with the light's square root: what is dark hardly counts, and neither does the small place next to a
+/// bulb.
 pub(super) fn stops(
     faces: impl Iterator<Item = Face> + Clone,
     lights: &[Light],
@@ -29,7 +29,7 @@ pub(super) fn stops(
     if !(step > 0.0 && step.is_finite()) {
         return None;
     }
-    let (mut light, mut light_times_log) = (0.0, 0.0);
+    let (mut weights, mut weighted_logs) = (0.0, 0.0);
     // How far the next point lies behind the beginning of the face at hand, in area.
     let mut ahead = step / 2.0;
     let mut number = 0;
@@ -42,13 +42,14 @@ pub(super) fn stops(
             let point = point_on(&face, number);
             let arrives = arriving(&face, area_normal / area, point, lights, eye);
             if arrives > 0.0 && arrives.is_finite() {
-                light += arrives;
-                light_times_log += arrives * libm::log2(arrives);
+                let weight = arrives.sqrt();
+                weights += weight;
+                weighted_logs += weight * libm::log2(arrives);
             }
         }
         ahead -= area;
     }
-    let mean = light_times_log / light - libm::log2(WELL_LIT);
+    let mean = weighted_logs / weights - libm::log2(WELL_LIT);
     let stops = (-mean).clamp(-MOST_STOPS, MOST_STOPS) as f32;
     (mean.is_finite() && !GOOD_AS_IT_IS.contains(&libm::exp2(mean))).then_some(stops)
 }
