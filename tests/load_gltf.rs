@@ -5,4 +5,5 @@ mod file;
 mod geometry;
 mod materials;
 mod nodes;
+mod seen;
 mod wrong;

@@ -10,4 +10,5 @@ mod invariance;
 mod load_gltf;
 mod load_obj;
 mod load_scene_file;
+mod models;
 mod output;

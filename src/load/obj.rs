@@ -155,7 +155,7 @@ fn add_shapes(model: &mut Model, geometry: &Geometry, material_of: &[u32]) {
     }
     model.warnings.add_times(
         "a face of very many corners is not convex and may be cut wrongly",
-        maker.fans(),
+        maker.uncut(),
     );
     tell(mended, &mut model.warnings);
 }

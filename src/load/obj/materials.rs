@@ -8,6 +8,9 @@
 //! - 3 to 9: also a mirror, `Ks` of whose light comes back (without Fresnel's law, and nothing refracts).
 //! - 10, shadows on what is not there: as 2.
 //!
+//! `Ns 0` is no highlight: MeshLab writes it beside `Ks 1 1 1` for what has none, and an exponent of 0 would pour light
+//! over all of it.
+//!
 //! `d` counts before `Tr`, which is `1 - d`. A lone `Tr 1`, which would hide everything, comes from writers who mean
 //! opaque by it.
 
@@ -67,7 +70,13 @@ pub(super) fn material(mtl: &MtlMaterial, textures: &mut Textures) -> Material {
             };
             let factor = mtl.specular.unwrap_or(absent);
             let specular = Textured { factor, texture };
-            let mut phong = phong(diffuse, specular, mtl.shininess.unwrap_or(SHININESS));
+            let shininess = mtl.shininess.unwrap_or(SHININESS);
+            let highlight = if shininess > 0.0 {
+                specular
+            } else {
+                Textured::uniform(Rgb::BLACK)
+            };
+            let mut phong = phong(diffuse, highlight, shininess);
             if (3..=9).contains(&illumination) {
                 phong.reflectivity = factor.map(|share| share.min(1.0));
             }
@@ -119,6 +128,13 @@ fn factor(
 
 fn alpha(mtl: &MtlMaterial, textures: &mut Textures) -> Alpha {
     let factor = match (mtl.dissolve, mtl.transparency) {
+        (Some(0.0), _) => {
+            let name = shown(mtl.name.as_bytes());
+            textures
+                .warnings
+                .add(format!("material \"{name}\": d 0 hides what is made of it"));
+            0.0
+        }
         (Some(dissolve), _) => dissolve,
         (None, Some(1.0)) => {
             let name = shown(mtl.name.as_bytes());
@@ -188,6 +204,15 @@ mod tests {
     }
 
     #[test]
+    fn an_exponent_of_zero_is_no_highlight_and_still_a_mirror() {
+        let matt = phong_of("Ks 1 1 1\nNs 0");
+        assert_eq!(matt.specular, Textured::uniform(Rgb::BLACK));
+        let mirror = phong_of("Ks .5 .5 .5\nNs 0\nillum 3");
+        assert_eq!(mirror.specular, Textured::uniform(Rgb::BLACK));
+        assert_eq!(mirror.reflectivity, Rgb::grey(0.5));
+    }
+
+    #[test]
     fn d_counts_before_tr() {
         let blend = |factor| Alpha {
             mode: AlphaMode::Blend,
@@ -201,7 +226,7 @@ mod tests {
             ("Tr .25", blend(0.75), 0),
             ("Tr 0", Alpha::OPAQUE, 0),
             ("Tr 1", Alpha::OPAQUE, 1),
-            ("d 0", blend(0.0), 0),
+            ("d 0", blend(0.0), 1),
         ] {
             let (material, told) = made(statements);
             assert_eq!((material.alpha, told), (alpha, warnings), "{statements}");

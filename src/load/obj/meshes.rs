@@ -80,8 +80,8 @@ impl<'a> MeshMaker<'a> {
     }
 
     /// How many faces of all meshes had too many corners to be cut rightly.
-    pub(super) fn fans(&self) -> usize {
-        self.triangulator.fans()
+    pub(super) fn uncut(&self) -> usize {
+        self.triangulator.uncut()
     }
 
     /// Adds a face's triangles; how many are left out.

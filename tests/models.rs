@@ -1,0 +1,228 @@
+//! Models that nobody here wrote: each gives a picture or one line that says why not, and none a panic.
+//!
+//! They lie in the folder that `LUCH_TEST_MODELS` names, or else in `../shared/models`: real ones in `valid/` and
+//! `obj/`, broken ones in `hostile/`. The project has none of them, since their licences differ.
+
+use super::common::picture;
+use luch::load;
+use luch::shade::Shading;
+use std::any::Any;
+use std::env;
+use std::fs;
+use std::io::{self, Write};
+use std::panic::{self, AssertUnwindSafe};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// A file on one thread takes less, on a slow and busy machine too; the slowest takes a tenth.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// What became of a file.
+struct Outcome {
+    file: PathBuf,
+    result: Result<Drawn, Refusal>,
+    time: Duration,
+}
+
+/// A picture, and what was said beside it.
+struct Drawn {
+    blank: bool,
+    finite: bool,
+    warnings: Vec<String>,
+}
+
+/// Why there is no picture.
+enum Refusal {
+    Error(String),
+    Panic(String),
+}
+
+#[test]
+fn real_models_give_a_picture_or_one_line() {
+    let outcomes = tried(
+        "real_models_give_a_picture_or_one_line",
+        &["valid", "obj"],
+        32,
+    );
+    assert_calm(&outcomes);
+    let (shown, others): (Vec<_>, Vec<_>) = outcomes.iter().partition(|o| o.shows_something());
+    for other in &others {
+        say(&format!("    {}", other.reason()));
+    }
+    assert!(
+        shown.len() >= others.len(),
+        "{} of {} show anything",
+        shown.len(),
+        outcomes.len()
+    );
+}
+
+#[test]
+fn hostile_models_give_a_picture_or_one_line() {
+    let outcomes = tried(
+        "hostile_models_give_a_picture_or_one_line",
+        &["hostile"],
+        16,
+    );
+    assert_calm(&outcomes);
+}
+
+/// Loads and renders every model in `folders`, and tells what came of it; nothing, and a line that says so, where a
+/// folder is absent.
+fn tried(test: &str, folders: &[&str], side: u32) -> Vec<Outcome> {
+    let root = env::var_os("LUCH_TEST_MODELS").map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/models"),
+        PathBuf::from,
+    );
+    let mut outcomes = Vec::new();
+    for folder in folders {
+        let folder = root.join(folder);
+        let mut files = Vec::new();
+        if !folder.is_dir() {
+            let folder = folder.display();
+            say(&format!(
+                "SKIPPED, not passed: {test}: no model was tried, since {folder} is no folder; \
+                 LUCH_TEST_MODELS can name another that has it"
+            ));
+            continue;
+        }
+        add_models(&folder, &mut files);
+        files.sort();
+        let of_folder = each(&files, side);
+        say(&summary(&folder, &of_folder));
+        outcomes.extend(of_folder);
+    }
+    outcomes
+}
+
+/// The models in a folder and those below it.
+fn add_models(folder: &Path, files: &mut Vec<PathBuf>) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for path in entries.map(|entry| entry.path()) {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        if path.is_dir() {
+            add_models(&path, files);
+        } else if matches!(extension.as_deref(), Some("gltf" | "glb" | "obj")) {
+            files.push(path);
+        }
+    }
+}
+
+/// What becomes of each file. Each is tried by one thread alone, so that its time is its own.
+fn each(files: &[PathBuf], side: u32) -> Vec<Outcome> {
+    let next = AtomicUsize::new(0);
+    let outcomes = Mutex::new(Vec::new());
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+                let alone = alone.expect("a pool");
+                while let Some(file) = files.get(next.fetch_add(1, Relaxed)) {
+                    let outcome = alone.install(|| one(file, side));
+                    outcomes.lock().expect("no panic").push(outcome);
+                }
+            });
+        }
+    });
+    let mut outcomes = outcomes.into_inner().expect("no panic");
+    outcomes.sort_by(|a, b| a.file.cmp(&b.file));
+    outcomes
+}
+
+fn one(file: &Path, side: u32) -> Outcome {
+    let start = Instant::now();
+    let result = panic::catch_unwind(AssertUnwindSafe(|| drawn(file, side)));
+    let result = match result {
+        Ok(result) => result.map_err(Refusal::Error),
+        Err(panic) => Err(Refusal::Panic(words(&*panic))),
+    };
+    Outcome {
+        file: file.to_owned(),
+        result,
+        time: start.elapsed(),
+    }
+}
+
+fn words(panic: &(dyn Any + Send)) -> String {
+    let fixed = panic.downcast_ref::<&str>().map(ToString::to_string);
+    let made = || panic.downcast_ref::<String>().cloned();
+    fixed.or_else(made).unwrap_or_default()
+}
+
+fn drawn(file: &Path, side: u32) -> Result<Drawn, String> {
+    let asset = load::open(file).map_err(|error| error.to_string())?;
+    let warnings = asset.warnings.iter().map(ToString::to_string).collect();
+    let (scene, _) = asset
+        .scene(0.0, &picture::viewpoint(1.0))
+        .map_err(|error| error.to_string())?;
+    let film = picture::of(&scene, side, side, Shading::BlinnPhong);
+    let beauty = &film.layers[0].values;
+    let (pixels, _) = beauty.as_chunks::<4>();
+    Ok(Drawn {
+        blank: pixels.iter().all(|pixel| *pixel == pixels[0]),
+        finite: beauty.iter().all(|number| number.is_finite()),
+        warnings,
+    })
+}
+
+impl Outcome {
+    fn shows_something(&self) -> bool {
+        matches!(self.result, Ok(Drawn { blank: false, .. }))
+    }
+
+    /// Why nothing is seen.
+    fn reason(&self) -> String {
+        match &self.result {
+            Ok(_) => format!("{}: gives a blank picture", self.file.display()),
+            Err(Refusal::Error(error)) => error.clone(),
+            Err(Refusal::Panic(panic)) => format!("{}: panics: {panic}", self.file.display()),
+        }
+    }
+}
+
+/// How many of the files show anything, and the slowest.
+fn summary(folder: &Path, outcomes: &[Outcome]) -> String {
+    let shown = outcomes.iter().filter(|outcome| outcome.shows_something());
+    let slowest = outcomes.iter().max_by_key(|outcome| outcome.time);
+    let slowest = slowest.map_or(String::new(), |slowest| {
+        let name = slowest.file.display();
+        let seconds = slowest.time.as_secs_f64();
+        format!("; the slowest took {seconds:.1} s: {name}")
+    });
+    let (shown, all, folder) = (shown.count(), outcomes.len(), folder.display());
+    format!("{folder}: {shown} of {all} models give a picture{slowest}")
+}
+
+/// Past the harness, which keeps what tests that pass print: whether this one did anything must be seen.
+fn say(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// Every file came to its end in time, and what is said of it is a line each, an error's with the name of a file.
+fn assert_calm(outcomes: &[Outcome]) {
+    let is_line = |text: &str| !text.is_empty() && !text.contains(char::is_control);
+    for Outcome { file, result, time } in outcomes {
+        let shown = file.display();
+        match result {
+            Ok(drawn) => {
+                assert!(drawn.finite, "{shown}: a pixel is no finite number");
+                for warning in &drawn.warnings {
+                    assert!(is_line(warning), "{shown}: {warning:?}");
+                }
+            }
+            Err(Refusal::Error(error)) => {
+                // The model's name, or that of a file beside it.
+                let folder = file.parent().unwrap_or(file).to_string_lossy();
+                assert!(
+                    is_line(error) && error.starts_with(&*folder),
+                    "{shown}: {error:?}"
+                );
+            }
+            Err(Refusal::Panic(panic)) => panic!("{shown}: panics: {panic}"),
+        }
+        assert!(*time < PATIENCE, "{shown}: took {time:?}");
+    }
+}
