@@ -43,6 +43,18 @@ impl Mesh {
         Bounds::around(corners)
     }
 
+    /// The greatest absolute coordinate of any vertex; NaN where one is not a number.
+    pub fn reach(&self) -> f32 {
+        let coordinates = self.positions.iter().flat_map(|p| p.abs().to_array());
+        coordinates.fold(0.0, |reach, x| {
+            if reach >= x || reach.is_nan() {
+                reach
+            } else {
+                x
+            }
+        })
+    }
+
     /// This mesh carried into another space; the fronts stay fronts where `transform` mirrors.
     pub fn transformed(mut self, transform: &DAffine3) -> Mesh {
         let matrix = transform.matrix3;

@@ -142,6 +142,8 @@ impl Scene {
         let (meshes, instances) =
             layout::place(description.meshes, description.instances, first_triangle);
         check::check_placed(&meshes, &instances)?;
+        // Last: a camera may have been framed to what was found wrong above.
+        check::check_camera(&description.camera)?;
         Ok(Scene {
             camera: description.camera,
             background: description.background,

@@ -7,11 +7,11 @@ use super::{InstanceSpace, PlacedInstance, SceneDescription, SceneError};
 use crate::material::Model;
 use crate::mesh::Mesh;
 use fields::{above_zero, check_color, direction, finite, index, named};
-use things::{check_camera, check_light, check_material, check_texture};
+pub(super) use things::check_camera;
+use things::{check_light, check_material, check_texture};
 
 /// The first thing that is wrong with a description.
 pub(super) fn check(scene: &SceneDescription) -> Result<(), SceneError> {
-    check_camera(&scene.camera)?;
     check_color(|| "background".into(), "color", scene.background.color)?;
     check_color(|| "ambient".into(), "color", scene.ambient)?;
     for texture in &scene.textures {
@@ -56,25 +56,25 @@ pub(super) fn check(scene: &SceneDescription) -> Result<(), SceneError> {
     Ok(())
 }
 
+/// The farthest from the origin that a mesh may reach: squares of larger numbers, and their products with a picture's
+/// width, leave 32 bits.
+const FARTHEST: f32 = 1e15;
+
 /// Huge but finite positions can leave the range of numbers on their way into the world.
 pub(super) fn check_placed(
     meshes: &[Mesh],
     instances: &[PlacedInstance],
 ) -> Result<(), SceneError> {
     for (i, instance) in instances.iter().enumerate() {
-        let fits = match &instance.space {
-            Some(InstanceSpace { bounds, .. }) => bounds.is_empty() || bounds.extent().is_finite(),
-            None => meshes[instance.mesh as usize]
-                .positions
-                .iter()
-                .all(|p| p.is_finite()),
+        let reach = match &instance.space {
+            Some(InstanceSpace { bounds, .. }) => bounds.extent(),
+            None => meshes[instance.mesh as usize].reach(),
         };
+        // False for NaN, too.
+        let fits = reach <= FARTHEST;
         if !fits {
             let what = named("instance", i, &instance.name);
-            return Err(SceneError::NotFinite {
-                what,
-                field: "its positions in the world",
-            });
+            return Err(SceneError::TooFar { what, reach });
         }
     }
     Ok(())

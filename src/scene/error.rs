@@ -66,6 +66,14 @@ pub enum SceneError {
         /// Its material.
         material: String,
     },
+    /// A mesh is so far from the origin, or so large, that 32 bits cannot reckon with it.
+    #[error("{what}: its mesh reaches {reach:e} from the origin, expected at most 1e15")]
+    TooFar {
+        /// The thing.
+        what: String,
+        /// The greatest coordinate in the world.
+        reach: f32,
+    },
     /// More primitives than 32 bits can number.
     #[error("{count} primitives are more than {} (instances count)", u32::MAX)]
     TooManyPrimitives {

@@ -9,7 +9,7 @@ use crate::scene::SceneDescription;
 use glam::{DAffine3, DVec3, Vec3};
 
 /// Constant light for models without lights.
-const MODEL_AMBIENT: Rgb = Rgb::grey(0.3);
+const MODEL_AMBIENT: Rgb = Rgb::grey(0.35);
 /// Adds lights to a model without any; finds the exposure for one with its own.
 pub(in crate::load) fn light(
     asset: &Asset,
@@ -55,8 +55,8 @@ fn viewer_lights(camera: &Camera) -> Vec<Light> {
         }
     };
     vec![
-        light("key", v * 1.1 - u * 0.8 - w * 0.9, 0.8),
-        light("fill", v * 0.25 - u * 0.15 - w, 0.25),
+        light("key", v * 1.1 - u * 0.8 - w * 0.9, 0.6),
+        light("fill", v * 0.25 - u * 0.15 - w, 0.2),
     ]
 }
 

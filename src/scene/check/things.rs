@@ -9,7 +9,7 @@ use crate::texture::{Pixels, Texture};
 use std::f32::consts::FRAC_PI_2;
 use std::f64::consts::PI;
 
-pub(super) fn check_camera(camera: &Camera) -> Result<(), SceneError> {
+pub(in crate::scene) fn check_camera(camera: &Camera) -> Result<(), SceneError> {
     let what = || "camera".to_owned();
     finite(what, "position", camera.position.as_vec3().to_array())?;
     finite(what, "look_at", camera.look_at.as_vec3().to_array())?;
