@@ -23,8 +23,8 @@ pub struct PlacedInstance {
 /// The space of a shared mesh.
 ///
 /// A scene shares meshes only where that saves much: where every instance in world space would take at most twice the
-/// triangles of the meshes, or fewer than 65,536, all are carried there, and a ray never changes its space. A transform
-/// that cannot be undone carries its mesh there, too. The choice depends on counts alone, before there is any
+/// triangles of the meshes, or at most 65,536, all are carried there, and a ray never changes its space. A mesh of one
+/// instance is carried there in any case, and so is one whose transform cannot be undone. The choice depends on counts alone, before there is any
 /// acceleration structure, so that each of them sees the same triangles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InstanceSpace {
@@ -111,7 +111,7 @@ fn triangles_of_instances(meshes: &[Mesh], instances: &[Instance]) -> u64 {
         .sum()
 }
 
-/// Fewer triangles than this in all are never worth a second level of search.
+/// So many triangles in all, or fewer, are never worth a second level of search.
 const FEW_TRIANGLES: u64 = 65_536;
 
 /// Carries into world space what is not worth sharing.
@@ -137,7 +137,6 @@ pub(super) fn place(
     let mut out_meshes: Vec<Mesh> = Vec::new();
     let mut placed = Vec::with_capacity(instances.len());
     let mut first_primitive = first_triangle;
-    // Instances that keep a space come last, so that a mesh they share is not yet gone.
     let spaces: Vec<Option<(Affine3, Affine3)>> = instances
         .iter()
         .map(|i| {

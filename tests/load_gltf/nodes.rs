@@ -103,7 +103,7 @@ fn a_deep_chain_of_nodes_is_walked() {
 }
 
 #[test]
-fn what_is_below_an_infinite_transform_is_not_drawn() {
+fn what_is_below_an_infinite_transform_is_not_drawn_and_a_singular_one_is_told() {
     let mut file = File::triangle();
     file.json["nodes"] = json!([
         {"children": [1, 2]},
@@ -115,7 +115,10 @@ fn what_is_below_an_infinite_transform_is_not_drawn() {
     assert_eq!(model.placed_nodes().len(), 3);
     assert_eq!(
         warnings(&model),
-        ["node \"far\": its transform is not of finite numbers: nothing from it downward is drawn"]
+        [
+            "node 2: its transform is singular: what it places is flattened",
+            "node \"far\": its transform is not of finite numbers: nothing from it downward is drawn"
+        ]
     );
 }
 

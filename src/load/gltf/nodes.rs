@@ -245,7 +245,8 @@ fn to_parent(json: &NodeJson, warnings: &mut Warnings) -> DAffine3 {
 }
 
 impl Tree {
-    /// Empties nodes whose transform to the model's space is not of finite 32-bit numbers, and all below them.
+    /// Empties nodes whose transform to the model's space is not of finite 32-bit numbers, and all below them. What a
+    /// singular transform flattens stays: a scale of 0 is how files hide things.
     fn cut_what_is_nowhere(&mut self, warnings: &mut Warnings) {
         let mut open: Vec<(usize, DAffine3)> = self
             .roots
@@ -260,6 +261,12 @@ impl Tree {
                 .iter()
                 .all(|x| x.abs() <= f64::from(f32::MAX));
             if is_somewhere {
+                if node.to_parent.matrix3.determinant() == 0.0 {
+                    let place = named("node", index, Some(&node.name));
+                    warnings.add(format!(
+                        "{place}: its transform is singular: what it places is flattened"
+                    ));
+                }
                 open.extend(node.children.iter().map(|&child| (child, to_model)));
             } else {
                 let place = named("node", index, Some(&node.name));
