@@ -8,6 +8,7 @@ pub mod linear;
 mod primitive;
 mod slab;
 mod tree;
+mod wide;
 
 use crate::geometry::{Hit, Plane};
 use crate::ray::Ray;
