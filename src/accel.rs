@@ -1,30 +1,53 @@
 //! Search: which primitive a ray meets first, and whether it meets any.
 //!
 //! Two questions, for one ray and for a batch: [`Accel::intersect`] and [`Accel::occluded`]. The answers are those of
-//! [`linear`], which tries every primitive in order, bit for bit.
+//! [`linear`], which tries every primitive in order, bit for bit. A batch is faster the more its rays go the same way: the
+//! camera's through a tile of pixels, those from one light.
 
 mod bvh;
+#[expect(unsafe_code, reason = "registers; every block says why it is sound")]
+mod kernel;
 pub mod linear;
 mod primitive;
 mod slab;
 mod tree;
 mod wide;
 
-use crate::geometry::{Hit, Plane};
+pub use kernel::{Isa, IsaError};
+
+use crate::geometry::{Bounds, Hit, Plane};
 use crate::ray::Ray;
-use crate::scene::{InstanceSpace, Scene};
-use primitive::{MeshTriangle, Probe, WorldPrimitive, WorldShape};
+use crate::scene::{InstanceSpace, PlacedInstance, Scene};
+use kernel::{Best, Scratch};
+use rayon::prelude::*;
+use std::cell::RefCell;
 use std::num::NonZeroU8;
 use std::time::{Duration, Instant};
-use tree::{Stack, Tree};
+use tree::{Item, Number, Tree};
+use wide::Kind;
 
 /// How a tree is built.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// How much time the build takes for how good a tree.
     pub preset: Preset,
     /// The most primitives a leaf may have; the preset's own choice where it is `None`.
     pub leaf_size: Option<NonZeroU8>,
+    /// The kernels that search.
+    pub isa: Isa,
+    /// Whether rays of a batch that go the same way are searched for together.
+    pub packets: bool,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            preset: Preset::default(),
+            leaf_size: None,
+            isa: Isa::detect(),
+            packets: true,
+        }
+    }
 }
 
 /// How much time the build takes for how good a tree: obvhs's presets.
@@ -47,14 +70,15 @@ pub enum Preset {
 
 /// A scene's primitives, ready to be searched.
 ///
-/// Spheres and triangles in world space share one tree. Each mesh that instances share has a tree of its own, and the
-/// instances one above those. Planes have no bounds and stand beside.
+/// Spheres and triangles in world space, and instances of shared meshes, stand in one tree; each shared mesh has a tree of
+/// its own. Planes have no bounds and stand beside.
 #[derive(Clone, Debug)]
 pub struct Accel {
     planes: Vec<NumberedPlane>,
-    world: Tree<WorldPrimitive>,
-    meshes: Vec<Tree<MeshTriangle>>,
-    instances: Tree<SharedInstance>,
+    world: Tree,
+    meshes: Vec<Tree>,
+    isa: Isa,
+    packets: bool,
     has_transparent: bool,
     statistics: Statistics,
 }
@@ -79,19 +103,23 @@ struct SharedInstance {
 /// What was built, and what it took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// Nodes of all trees.
+    /// Nodes of all trees, each of up to eight children.
     pub nodes: usize,
-    /// Those of them that are leaves.
+    /// Their leaves.
     pub leaves: usize,
     /// Nodes on the longest way from a root to a leaf, both levels added.
     pub depth: usize,
     /// Nodes and primitives as they lie in memory.
     pub bytes: usize,
-    /// The surface-area cost of the tree over the world, a node and a primitive costing 1 each
-    /// (MacDonald and Booth 1990, "Heuristics for ray tracing using space subdivision").
+    /// The surface-area cost of the tree over the world: how many nodes and how many blocks of eight primitives a
+    /// random line through it meets (MacDonald and Booth 1990, "Heuristics for ray tracing using space subdivision").
     pub sah_cost: f32,
     /// From the scene to the finished trees.
     pub build_time: Duration,
+}
+
+thread_local! {
+    static SCRATCH: RefCell<Scratch> = RefCell::new(Scratch::new());
 }
 
 impl Accel {
@@ -108,50 +136,17 @@ impl Accel {
                 opaque: opaque(p.material),
             })
             .collect();
-
-        let mut in_world: Vec<WorldPrimitive> = (0..)
-            .zip(scene.spheres())
-            .map(|(number, s)| WorldPrimitive {
-                shape: WorldShape::Sphere(s.shape),
-                number,
-                opaque: opaque(s.material),
-            })
-            .collect();
-        let mut meshes: Vec<Tree<MeshTriangle>> =
-            scene.meshes().iter().map(|_| Tree::default()).collect();
-        let mut shared = Vec::new();
-        for instance in scene.instances() {
-            let (mesh, first_primitive) = (scene.mesh(instance.mesh), instance.first_primitive);
-            let opaque = opaque(instance.material);
-            let triangles =
-                (0..mesh.triangles.len() as u32).map(|index| (index, mesh.triangle(index)));
-            match instance.space {
-                None => in_world.extend(triangles.map(|(index, triangle)| WorldPrimitive {
-                    shape: WorldShape::Triangle(triangle),
-                    number: first_primitive + index,
-                    opaque,
-                })),
-                Some(space) => {
-                    let tree = &mut meshes[instance.mesh as usize];
-                    if tree.is_empty() {
-                        let triangles =
-                            triangles.map(|(index, triangle)| MeshTriangle { triangle, index });
-                        *tree = bvh::build(triangles.collect(), options);
-                    }
-                    shared.push(SharedInstance {
-                        space,
-                        mesh: instance.mesh,
-                        first_primitive,
-                        opaque,
-                    });
-                }
-            }
-        }
+        let shared = |instance: &&PlacedInstance| instance.space.is_some();
+        let meshes = (0..scene.meshes().len() as u32).map(|mesh| {
+            let is_shared = scene.instances().iter().filter(shared).any(|i| i.mesh == mesh);
+            if is_shared { mesh_tree(scene, mesh, options) } else { Tree::default() }
+        });
         let mut accel = Accel {
             planes,
-            world: bvh::build(in_world, options),
-            meshes,
-            instances: bvh::build(shared, options),
+            meshes: meshes.collect(),
+            world: world_tree(scene, options),
+            isa: options.isa,
+            packets: options.packets,
             has_transparent: (0..scene.materials().len() as u32).any(|material| !opaque(material)),
             statistics: Statistics::default(),
         };
@@ -164,26 +159,36 @@ impl Accel {
 
     /// The nearest primitive on the ray; of several at the same `t` the one with the lowest number.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        self.nearest(ray, &mut Stacks::default())
+        SCRATCH.with_borrow_mut(|scratch| {
+            self.search_nearest(std::slice::from_ref(ray), scratch);
+            scratch.best.first().and_then(Best::hit)
+        })
     }
 
     /// [`Accel::intersect`] for each ray, into `hits`, which is cleared first.
     pub fn intersect_all(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
-        let mut stacks = Stacks::default();
         hits.clear();
-        hits.extend(rays.iter().map(|ray| self.nearest(ray, &mut stacks)));
+        SCRATCH.with_borrow_mut(|scratch| {
+            self.search_nearest(rays, scratch);
+            hits.extend(scratch.best.iter().map(Best::hit));
+        });
     }
 
     /// Whether the ray meets any opaque primitive.
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.any(ray, &mut Stacks::default())
+        SCRATCH.with_borrow_mut(|scratch| {
+            self.search_any(std::slice::from_ref(ray), scratch);
+            scratch.occluded.first().is_some_and(|&occluded| occluded)
+        })
     }
 
     /// [`Accel::occluded`] for each ray, into `occluded`, which is cleared first.
     pub fn occluded_all(&self, rays: &[Ray], occluded: &mut Vec<bool>) {
-        let mut stacks = Stacks::default();
         occluded.clear();
-        occluded.extend(rays.iter().map(|ray| self.any(ray, &mut stacks)));
+        SCRATCH.with_borrow_mut(|scratch| {
+            self.search_any(rays, scratch);
+            occluded.extend_from_slice(&scratch.occluded);
+        });
     }
 
     /// Whether any material of the scene lets some light through, so that [`Accel::occluded`] is not the whole answer.
@@ -196,97 +201,115 @@ impl Accel {
         &self.statistics
     }
 
-    fn nearest(&self, ray: &Ray, stacks: &mut Stacks) -> Option<Hit> {
-        let mut probe = Probe::new(*ray, self.world.extent());
-        let mut best = None;
-        for p in &self.planes {
-            probe.offer(primitive::plane(&p.plane, &probe.ray, p.number), &mut best);
-        }
-        self.world
-            .nearest(&mut probe, &mut stacks.outer, |item, probe| {
-                probe.offer(item.intersect(probe), &mut best)
-            });
-        let mut probe = probe.with_extent(self.instances.extent());
-        self.instances
-            .nearest(&mut probe, &mut stacks.outer, |instance, probe| {
-                let mesh = &self.meshes[instance.mesh as usize];
-                let Some(mut local) = probe.in_space(&instance.space, mesh.extent()) else {
-                    return;
-                };
-                let first = instance.first_primitive;
-                mesh.nearest(&mut local, &mut stacks.inner, |item, local| {
-                    local.offer(item.intersect(local, first), &mut best);
-                });
-                probe.shorten(best);
-            });
-        best
+    fn search_nearest(&self, rays: &[Ray], scratch: &mut Scratch) {
+        scratch.best.clear();
+        scratch.best.extend(rays.iter().map(|ray| {
+            let mut best = Best::new(ray.t_max);
+            for p in &self.planes {
+                if let Some(hit) = primitive::plane(&p.plane, ray, p.number) {
+                    best.offer(hit.t, hit.primitive, hit.barycentric);
+                }
+            }
+            best
+        }));
+        kernel::closest(self, rays, scratch);
     }
 
-    fn any(&self, ray: &Ray, stacks: &mut Stacks) -> bool {
-        let probe = Probe::new(*ray, self.world.extent());
-        let plane_hit =
-            |p: &NumberedPlane| p.opaque && primitive::plane(&p.plane, ray, p.number).is_some();
-        if self.planes.iter().any(plane_hit) {
-            return true;
-        }
-        if self.world.any(&probe, &mut stacks.outer, |item, probe| {
-            item.opaque && item.intersect(probe).is_some()
-        }) {
-            return true;
-        }
-        let probe = probe.with_extent(self.instances.extent());
-        self.instances
-            .any(&probe, &mut stacks.outer, |instance, probe| {
-                let mesh = &self.meshes[instance.mesh as usize];
-                let first = instance.first_primitive;
-                instance.opaque
-                    && probe
-                        .in_space(&instance.space, mesh.extent())
-                        .is_some_and(|local| {
-                            mesh.any(&local, &mut stacks.inner, |item, local| {
-                                item.intersect(local, first).is_some()
-                            })
-                        })
-            })
+    fn search_any(&self, rays: &[Ray], scratch: &mut Scratch) {
+        let plane = |ray: &Ray| {
+            let met = |p: &NumberedPlane| p.opaque && primitive::plane(&p.plane, ray, p.number).is_some();
+            self.planes.iter().any(met)
+        };
+        scratch.best.clear();
+        scratch.best.extend(rays.iter().map(|ray| Best::new(ray.t_max)));
+        scratch.occluded.clear();
+        scratch.occluded.extend(rays.iter().map(plane));
+        kernel::occluded(self, rays, scratch);
     }
 
     fn measure(&self) -> Statistics {
-        let of_meshes = self.meshes.iter().map(Tree::measure);
-        let deepest_mesh = of_meshes.clone().map(|m| m.depth).max().unwrap_or(0);
-        let (world, instances) = (self.world.measure(), self.instances.measure());
-        let all = of_meshes.fold(world, |a, b| a.with(&b)).with(&instances);
-        let depth = world.depth.max(if instances.depth > 0 {
-            instances.depth + deepest_mesh
-        } else {
-            0
-        });
-        let sah_cost = if world.nodes > 0 {
-            world.sah_cost
-        } else {
-            instances.sah_cost
-        };
+        let deepest_mesh = self.meshes.iter().map(|mesh| mesh.depth).max().unwrap_or(0);
+        let all = || self.meshes.iter().chain([&self.world]);
         Statistics {
-            depth,
-            sah_cost,
-            ..all
+            nodes: all().map(|tree| tree.nodes.len()).sum(),
+            leaves: all().map(|tree| tree.leaves).sum(),
+            depth: self.world.depth + deepest_mesh,
+            bytes: all().map(Tree::bytes).sum(),
+            sah_cost: self.world.sah_cost,
+            build_time: Duration::ZERO,
         }
     }
 }
 
-impl Statistics {
-    fn with(self, other: &Statistics) -> Statistics {
-        Statistics {
-            nodes: self.nodes + other.nodes,
-            leaves: self.leaves + other.leaves,
-            bytes: self.bytes + other.bytes,
-            ..self
-        }
-    }
+/// The tree over the triangles of a shared mesh, numbered from 0.
+fn mesh_tree(scene: &Scene, mesh: u32, options: &Options) -> Tree {
+    let mesh = scene.mesh(mesh);
+    let triangles = 0..mesh.triangles.len() as u32;
+    let bounds: Vec<Bounds> = triangles
+        .into_par_iter()
+        .map(|index| mesh.triangle(index).bounds())
+        .collect();
+    let topology = bvh::build(&bounds, |_| Kind::Triangles, options);
+    Tree::new(topology, mesh.bounds().extent(), |index| {
+        Item::Triangle(mesh.triangle(index), Number::new(index, true))
+    })
 }
 
-/// The memory of a traversal, reused from ray to ray.
-#[derive(Default)]
-struct Stacks {
-    outer: Stack,
-    inner: Stack,
+/// The tree over everything in the world that has bounds: spheres, then each instance's triangles or the instance itself.
+fn world_tree(scene: &Scene, options: &Options) -> Tree {
+    let spheres = scene.spheres().len() as u32;
+    let opaque = |material: u32| scene.material(material).is_opaque();
+    // The first item of each instance.
+    let mut first_items = Vec::with_capacity(scene.instances().len());
+    let mut bounds: Vec<Bounds> = scene.spheres().iter().map(|s| s.shape.bounds()).collect();
+    for instance in scene.instances() {
+        first_items.push(bounds.len() as u32);
+        match &instance.space {
+            Some(space) => bounds.push(space.bounds),
+            None => {
+                let mesh = scene.mesh(instance.mesh);
+                bounds.par_extend(
+                    (0..mesh.triangles.len() as u32)
+                        .into_par_iter()
+                        .map(|index| mesh.triangle(index).bounds()),
+                );
+            }
+        }
+    }
+    let instance_of = |item: u32| first_items.partition_point(|&first| first <= item) - 1;
+    let kind = |item: u32| {
+        if item < spheres {
+            Kind::Spheres
+        } else if scene.instances()[instance_of(item)].space.is_some() {
+            Kind::Instances
+        } else {
+            Kind::Triangles
+        }
+    };
+    let extent = bounds.iter().copied().fold(Bounds::EMPTY, Bounds::union).extent();
+    let topology = bvh::build(&bounds, kind, options);
+    Tree::new(topology, extent, |item| {
+        if item < spheres {
+            let sphere = &scene.spheres()[item as usize];
+            return Item::Sphere(sphere.shape, Number::new(item, opaque(sphere.material)));
+        }
+        let index = instance_of(item);
+        let instance = &scene.instances()[index];
+        let opaque = opaque(instance.material);
+        match instance.space {
+            Some(space) => Item::Instance(SharedInstance {
+                space,
+                mesh: instance.mesh,
+                first_primitive: instance.first_primitive,
+                opaque,
+            }),
+            None => {
+                let triangle = item - first_items[index];
+                Item::Triangle(
+                    scene.mesh(instance.mesh).triangle(triangle),
+                    Number::new(instance.first_primitive + triangle, opaque),
+                )
+            }
+        }
+    })
 }

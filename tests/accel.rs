@@ -2,7 +2,7 @@
 
 use crate::common::scenes::{self, Named};
 use glam::{DAffine3, DQuat, DVec3, Vec3};
-use luch::accel::{Accel, Options, Preset, linear};
+use luch::accel::{Accel, Isa, Options, Preset, linear};
 use luch::generate::Random;
 use luch::geometry::Hit;
 use luch::ray::Ray;
@@ -11,6 +11,12 @@ use luch::scene::{Instance, Scene};
 /// Bits, so that a NaN or a -0.0 would show.
 fn bits(hit: Option<Hit>) -> Option<(u32, u32, [u32; 2])> {
     hit.map(|h| (h.t.to_bits(), h.primitive, h.barycentric.map(f32::to_bits)))
+}
+
+/// Every instruction set that this machine has, each with packets and without.
+fn kernels() -> Vec<(Isa, bool)> {
+    let both = |isa| [(isa, false), (isa, true)];
+    Isa::available().into_iter().flat_map(both).collect()
 }
 
 fn assert_equals_oracle(name: &str, scene: &Scene, rays: &[Ray]) {
@@ -37,14 +43,22 @@ fn assert_equals_oracle(name: &str, scene: &Scene, rays: &[Ray]) {
         .collect();
     for preset in presets {
         for leaf_size in leaf_sizes {
-            let accel = Accel::build(scene, &Options { preset, leaf_size });
-            let (mut hits, mut occluded) = (Vec::new(), Vec::new());
-            accel.intersect_all(rays, &mut hits);
-            accel.occluded_all(rays, &mut occluded);
-            for (index, ray) in rays.iter().enumerate() {
-                let at = format!("{name}, {preset:?}, leaves of {leaf_size:?}: {ray:?}");
-                assert_eq!(bits(hits[index]), expected[index], "{at}");
-                assert_eq!(occluded[index], expected_occluded[index], "{at}");
+            for (isa, packets) in kernels() {
+                let options = Options {
+                    preset,
+                    leaf_size,
+                    isa,
+                    packets,
+                };
+                let accel = Accel::build(scene, &options);
+                let (mut hits, mut occluded) = (Vec::new(), Vec::new());
+                accel.intersect_all(rays, &mut hits);
+                accel.occluded_all(rays, &mut occluded);
+                for (index, ray) in rays.iter().enumerate() {
+                    let at = || format!("{name}, {options:?}: {ray:?}");
+                    assert_eq!(bits(hits[index]), expected[index], "{}", at());
+                    assert_eq!(occluded[index], expected_occluded[index], "{}", at());
+                }
             }
         }
     }
@@ -208,6 +222,7 @@ fn statistics_count_what_was_built() {
     let one_each = Options {
         preset: Preset::Medium,
         leaf_size: std::num::NonZeroU8::new(1),
+        ..Options::default()
     };
     let accel = Accel::build(&scene, &one_each);
     let statistics = accel.statistics();

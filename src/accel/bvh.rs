@@ -4,8 +4,7 @@
 //! go in as one; areas overflow and underflow at the ends of the number range, so it sees boxes moved into -1..1; it
 //! panics on nothing, so that never reaches it. Only its topology is used: our boxes are exact.
 
-use super::primitive::Bounded;
-use super::tree::{Node, Tree};
+use super::wide::{Kind, Leaf, Node, Reference, Topology};
 use super::{Options, Preset};
 use crate::geometry::Bounds;
 use glam::{DVec3, Vec3A};
@@ -16,34 +15,64 @@ use obvhs::bvh2::builder::build_bvh2;
 use rayon::prelude::*;
 use std::time::Duration;
 
-/// The tree over `items`; empty where there are none.
-pub(super) fn build<Item: Bounded + Copy + Sync + Send>(
-    items: Vec<Item>,
-    options: &Options,
-) -> Tree<Item> {
-    if items.is_empty() {
-        return Tree::default();
+
+/// temporary
+pub(super) fn build(bounds: &[Bounds], kind: impl Fn(u32) -> Kind + Sync, options: &Options) -> Topology {
+    if bounds.is_empty() {
+        return Topology::default();
     }
-    let bounds: Vec<Bounds> = items.iter().map(Bounded::bounds).collect();
-    let groups = Groups::of_equal_boxes(&bounds);
+    let groups = Groups::of_equal_boxes(bounds);
     let boxes = scaled(groups.firsts().map(|item| bounds[item as usize]).collect());
     let mut core_build_time = Duration::ZERO;
     let bvh = build_bvh2(&boxes, parameters(options), &mut core_build_time);
-    let (mut nodes, order, depth) = copied(&bvh, &groups);
-    let ordered: Vec<Item> = order.iter().map(|&item| items[item as usize]).collect();
-    // Children follow their parents, so backwards every box is ready before the box around it.
-    for index in (0..nodes.len()).rev() {
-        let Node { first, count, .. } = nodes[index];
-        let (first, count) = (first as usize, count as usize);
-        nodes[index].bounds = if count > 0 {
-            order[first..first + count]
-                .iter()
-                .fold(Bounds::EMPTY, |b, &item| b.union(bounds[item as usize]))
-        } else {
-            nodes[first].bounds.union(nodes[first + 1].bounds)
-        };
+    // exact boxes
+    let n = bvh.nodes.len();
+    let mut exact = vec![Bounds::EMPTY; n];
+    let mut order_nodes = vec![0u32];
+    let mut i = 0;
+    while i < order_nodes.len() {
+        let node = &bvh.nodes[order_nodes[i] as usize];
+        if !node.is_leaf() { order_nodes.push(node.first_index); order_nodes.push(node.first_index + 1); }
+        i += 1;
     }
-    Tree::new(nodes, ordered, depth)
+    for &i in order_nodes.iter().rev() {
+        let node = &bvh.nodes[i as usize];
+        exact[i as usize] = if node.is_leaf() {
+            (node.first_index..node.first_index + node.prim_count).flat_map(|p| groups.items(bvh.primitive_indices[p as usize])).fold(Bounds::EMPTY, |b, &i| b.union(bounds[i as usize]))
+        } else { exact[node.first_index as usize].union(exact[node.first_index as usize + 1]) };
+    }
+    let area = |b: &Bounds| { let d = b.max - b.min; d.x * d.y + d.y * d.z + d.z * d.x };
+    let mut t = Topology::default();
+    t.nodes.push(Node::EMPTY);
+    let mut open = vec![(0usize, 0u32, 1usize)];
+    while let Some((to, from, level)) = open.pop() {
+        t.depth = t.depth.max(level);
+        let mut children = vec![from];
+        loop {
+            let best = children.iter().enumerate().filter(|(_, c)| !bvh.nodes[**c as usize].is_leaf()).max_by(|a, b| area(&exact[*a.1 as usize]).total_cmp(&area(&exact[*b.1 as usize]))).map(|x| x.0);
+            let Some(best) = best else { break };
+            if children.len() == 8 { break }
+            let c = children.swap_remove(best);
+            let f = bvh.nodes[c as usize].first_index;
+            children.extend([f, f + 1]);
+        }
+        for (slot, c) in children.into_iter().enumerate() {
+            let node = &bvh.nodes[c as usize];
+            if node.is_leaf() {
+                let items: Vec<u32> = (node.first_index..node.first_index + node.prim_count).flat_map(|p| groups.items(bvh.primitive_indices[p as usize]).to_vec()).collect();
+                let k = kind(items[0]);
+                t.leaves.push(Leaf { first: t.order.len() as u32, count: items.len() as u32 });
+                t.order.extend(items);
+                t.nodes[to].set(slot, &exact[c as usize], Reference::new(k, t.leaves.len() as u32 - 1));
+            } else {
+                let new = t.nodes.len();
+                t.nodes.push(Node::EMPTY);
+                t.nodes[to].set(slot, &exact[c as usize], Reference::new(Kind::Node, new as u32));
+                open.push((new, c, level + 1));
+            }
+        }
+    }
+    t
 }
 
 /// Items with the same box, side by side.
@@ -119,38 +148,3 @@ fn parameters(options: &Options) -> BvhBuildParams {
     }
 }
 
-/// obvhs's nodes in our form, boxes still empty: the nodes, the items in the order of the leaves, and the depth.
-fn copied(bvh: &Bvh2, groups: &Groups) -> (Vec<Node>, Vec<u32>, usize) {
-    let empty = Node {
-        bounds: Bounds::EMPTY,
-        first: 0,
-        count: 0,
-    };
-    let mut nodes = vec![empty];
-    let mut order = Vec::with_capacity(groups.sorted.len());
-    let mut depth = 1;
-    // Ours, obvhs's, and how deep.
-    let mut open = vec![(0usize, 0usize, 1usize)];
-    while let Some((to, from, level)) = open.pop() {
-        depth = depth.max(level);
-        let source = &bvh.nodes[from];
-        if source.is_leaf() {
-            let first = order.len();
-            for i in source.first_index..source.first_index + source.prim_count {
-                order.extend_from_slice(groups.items(bvh.primitive_indices[i as usize]));
-            }
-            nodes[to] = Node {
-                first: first as u32,
-                count: (order.len() - first) as u32,
-                ..empty
-            };
-        } else {
-            let first = nodes.len();
-            nodes.extend([empty, empty]);
-            nodes[to].first = first as u32;
-            let child = source.first_index as usize;
-            open.extend([(first + 1, child + 1, level + 1), (first, child, level + 1)]);
-        }
-    }
-    (nodes, order, depth)
-}

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 /// How far a hit may lie outside the box of its primitive, relative to the coordinates: four times the rounding
 /// errors of the triangle test (about 16 half units in the last place), and a power of two.
-const RELATIVE_PAD: f32 = 1.0 / 262_144.0;
+pub(super) const RELATIVE_PAD: f32 = 1.0 / 262_144.0;
 
 /// A ray, made ready for the slab test (Kay and Kajiya 1986, "Ray Tracing Complex Scenes").
 ///
@@ -17,11 +17,11 @@ const RELATIVE_PAD: f32 = 1.0 / 262_144.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slab {
     /// The origin, less the pad.
-    low: Vec3,
+    pub(super) low: Vec3,
     /// The origin and the pad.
-    high: Vec3,
-    /// `1/d`; infinite where the ray is parallel to the slab.
-    inverse: Vec3,
+    pub(super) high: Vec3,
+    /// `1/d`; where the ray is parallel to the slab the greatest finite number, since `0 * infinity` is none.
+    pub(super) inverse: Vec3,
 }
 
 impl Slab {
@@ -31,8 +31,16 @@ impl Slab {
         Slab {
             low: ray.origin - pad,
             high: ray.origin + pad,
-            inverse: ray.direction.recip(),
+            inverse: ray
+                .direction
+                .recip()
+                .clamp(Vec3::MIN, Vec3::MAX),
         }
+    }
+
+    /// Per axis, which corner of a box the ray comes to first: 0 is the least.
+    pub(super) fn near(&self) -> [usize; 3] {
+        self.inverse.to_array().map(|x| usize::from(x < 0.0))
     }
 
     /// From where to where the ray's line is inside a box; empty (`near > far`) where it misses.
@@ -46,9 +54,8 @@ impl Slab {
             } else {
                 (to_max, to_min)
             };
-            // Written to pass over the NaN of 0 * infinity: a parallel ray in the very face of the slab is inside.
-            near = if enter > near { enter } else { near };
-            far = if leave < far { leave } else { far };
+            near = near.max(enter);
+            far = far.min(leave);
         }
         (near, far)
     }

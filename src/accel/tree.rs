@@ -1,48 +1,175 @@
-//! A binary tree of boxes, and the way of a ray through it.
+//! A tree with its primitives laid into it.
 
-use super::Statistics;
-use super::primitive::Probe;
-use crate::geometry::Bounds;
+use super::SharedInstance;
+use super::wide::{Kind, Node, Reference, Topology};
+use crate::geometry::{Sphere, Triangle};
 
-/// Boxes within boxes down to leaves of items. Empty by default.
-#[derive(Clone, Debug)]
-pub(super) struct Tree<Item> {
-    nodes: Vec<Node>,
-    /// In the order of the leaves.
-    items: Vec<Item>,
-    depth: usize,
+/// The bit of a primitive's number that says that light passes through it.
+const TRANSPARENT: u32 = 1 << 31;
+
+/// What a tree is made of.
+pub(super) enum Item {
+    Triangle(Triangle, Number),
+    Sphere(Sphere, Number),
+    Instance(SharedInstance),
 }
 
-/// A box and what is in it.
+/// The number of a primitive, below 2^31, and whether it is opaque.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Number(u32);
+
+impl Number {
+    /// Of the lanes of a block that have no primitive.
+    const NONE: Number = Number(u32::MAX);
+
+    pub(super) fn new(number: u32, opaque: bool) -> Number {
+        Number(if opaque { number } else { number | TRANSPARENT })
+    }
+
+    pub(super) fn get(self) -> u32 {
+        self.0 & !TRANSPARENT
+    }
+
+    pub(super) fn is_opaque(self) -> bool {
+        self.0 & TRANSPARENT == 0
+    }
+}
+
+/// Up to eight triangles, vertex by vertex and axis by axis: 320 bytes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
-    pub(super) bounds: Bounds,
-    /// The first of both children (the second follows it), or of the leaf's items.
-    pub(super) first: u32,
-    /// The number of the leaf's items; 0 for what is no leaf.
-    pub(super) count: u32,
+#[repr(C, align(64))]
+pub(super) struct TriangleBlock {
+    /// Not numbers in lanes without a triangle, so that no ray meets them.
+    pub(super) vertices: [[[f32; 8]; 3]; 3],
+    pub(super) numbers: [Number; 8],
 }
 
-/// Nodes still to be visited, with the distance at which the ray enters them. Grows as deep as the tree is, however deep.
-pub(super) type Stack = Vec<(u32, f32)>;
+/// Up to eight spheres.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub(super) struct SphereBlock {
+    /// Not numbers in lanes without a sphere, so that no ray meets them.
+    pub(super) center: [[f32; 8]; 3],
+    pub(super) radius: [f32; 8],
+    pub(super) numbers: [Number; 8],
+}
 
-impl<Item> Default for Tree<Item> {
-    fn default() -> Tree<Item> {
-        Tree {
-            nodes: Vec::new(),
-            items: Vec::new(),
-            depth: 0,
+impl TriangleBlock {
+    const EMPTY: TriangleBlock = TriangleBlock {
+        vertices: [[[f32::NAN; 8]; 3]; 3],
+        numbers: [Number::NONE; 8],
+    };
+
+    pub(super) fn triangle(&self, lane: usize) -> Triangle {
+        Triangle(
+            self.vertices
+                .map(|rows| glam::Vec3::from_array(rows.map(|row| row[lane]))),
+        )
+    }
+}
+
+impl SphereBlock {
+    const EMPTY: SphereBlock = SphereBlock {
+        center: [[f32::NAN; 8]; 3],
+        radius: [f32::NAN; 8],
+        numbers: [Number::NONE; 8],
+    };
+
+    pub(super) fn sphere(&self, lane: usize) -> Sphere {
+        Sphere {
+            center: glam::Vec3::from_array(self.center.map(|row| row[lane])),
+            radius: self.radius[lane],
         }
     }
 }
 
-impl<Item> Tree<Item> {
-    /// A tree whose root is the first node, with `depth` nodes on its longest way down; children follow their parents.
-    pub(super) fn new(nodes: Vec<Node>, items: Vec<Item>, depth: usize) -> Tree<Item> {
-        Tree {
-            nodes,
-            items,
-            depth,
+/// Nodes, and the blocks of their leaves. A leaf's reference is to its first block and says how many follow it, see
+/// [`blocks`].
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tree {
+    pub(super) nodes: Vec<Node>,
+    pub(super) triangles: Vec<TriangleBlock>,
+    pub(super) spheres: Vec<SphereBlock>,
+    pub(super) instances: Vec<SharedInstance>,
+    /// The greatest absolute coordinate of anything in it.
+    pub(super) extent: f32,
+    pub(super) leaves: usize,
+    pub(super) depth: usize,
+    pub(super) sah_cost: f32,
+}
+
+/// The blocks that a leaf's reference stands for.
+#[inline(always)]
+pub(super) fn blocks(reference: Reference) -> std::ops::Range<usize> {
+    let first = reference.index() >> 2;
+    first..first + (reference.index() & 3) + 1
+}
+
+impl Tree {
+    /// Lays the items, in the order of the leaves, into blocks. `extent` is the greatest absolute coordinate.
+    pub(super) fn new(topology: Topology, extent: f32, item: impl Fn(u32) -> Item) -> Tree {
+        let mut tree = Tree {
+            extent,
+            leaves: topology.leaves.len(),
+            depth: topology.depth,
+            sah_cost: topology.sah_cost,
+            nodes: topology.nodes,
+            ..Tree::default()
+        };
+        let mut nodes = std::mem::take(&mut tree.nodes);
+        for child in nodes.iter_mut().flat_map(|node| &mut node.children) {
+            let kind = child.kind();
+            if kind == Kind::Node {
+                continue;
+            }
+            let leaf = topology.leaves[child.index()];
+            let items = &topology.order[leaf.first as usize..(leaf.first + leaf.count) as usize];
+            let first = tree.blocks_of(kind);
+            for items in items.chunks(8) {
+                tree.push(kind, items.iter().map(|&index| item(index)));
+            }
+            let others = tree.blocks_of(kind) - first - 1;
+            *child = Reference::new(kind, (first << 2 | others) as u32);
+        }
+        tree.nodes = nodes;
+        tree
+    }
+
+    fn blocks_of(&self, kind: Kind) -> usize {
+        match kind {
+            Kind::Node => self.nodes.len(),
+            Kind::Triangles => self.triangles.len(),
+            Kind::Spheres => self.spheres.len(),
+            Kind::Instances => self.instances.len(),
+        }
+    }
+
+    fn push(&mut self, kind: Kind, items: impl Iterator<Item = Item>) {
+        let (mut triangles, mut spheres) = (TriangleBlock::EMPTY, SphereBlock::EMPTY);
+        for (lane, item) in items.enumerate() {
+            match item {
+                Item::Triangle(Triangle(corners), number) => {
+                    for (rows, corner) in triangles.vertices.iter_mut().zip(corners) {
+                        rows.iter_mut()
+                            .zip(corner.to_array())
+                            .for_each(|(row, x)| row[lane] = x);
+                    }
+                    triangles.numbers[lane] = number;
+                }
+                Item::Sphere(sphere, number) => {
+                    let rows = spheres.center.iter_mut();
+                    rows.zip(sphere.center.to_array())
+                        .for_each(|(row, x)| row[lane] = x);
+                    spheres.radius[lane] = sphere.radius;
+                    spheres.numbers[lane] = number;
+                }
+                Item::Instance(instance) => self.instances.push(instance),
+            }
+        }
+        match kind {
+            Kind::Triangles => self.triangles.push(triangles),
+            Kind::Spheres => self.spheres.push(spheres),
+            Kind::Node | Kind::Instances => {}
         }
     }
 
@@ -51,133 +178,16 @@ impl<Item> Tree<Item> {
         self.nodes.is_empty()
     }
 
-    /// The greatest absolute coordinate of anything in it.
-    pub(super) fn extent(&self) -> f32 {
-        self.nodes.first().map_or(0.0, |root| root.bounds.extent())
+    /// The most entries that a walk down this tree leaves on its stack.
+    pub(super) fn stack_size(&self) -> usize {
+        7 * self.depth + 8
     }
 
-    /// Visits every item whose leaf the probe can still reach, nearer nodes first. `visit` shortens the probe.
-    pub(super) fn nearest(
-        &self,
-        probe: &mut Probe,
-        stack: &mut Stack,
-        mut visit: impl FnMut(&Item, &mut Probe),
-    ) {
-        let Some(root) = self.nodes.first() else {
-            return;
-        };
-        stack.clear();
-        if let Some(near) = entered(root, probe) {
-            stack.push((0, near));
-        }
-        while let Some((index, near)) = stack.pop() {
-            // An equal distance is not pruned: of hits at the same `t` the lowest number wins, wherever it stands.
-            if near > probe.ray.t_max {
-                continue;
-            }
-            let mut node = &self.nodes[index as usize];
-            while node.count == 0 {
-                let (left, right) = (node.first, node.first + 1);
-                let children = (
-                    entered(&self.nodes[left as usize], probe),
-                    entered(&self.nodes[right as usize], probe),
-                );
-                node = match children {
-                    (Some(a), Some(b)) => {
-                        let (near_child, far_child) = if a <= b {
-                            (left, (right, b))
-                        } else {
-                            (right, (left, a))
-                        };
-                        stack.push(far_child);
-                        &self.nodes[near_child as usize]
-                    }
-                    (Some(_), None) => &self.nodes[left as usize],
-                    (None, Some(_)) => &self.nodes[right as usize],
-                    (None, None) => break,
-                };
-            }
-            for item in self.leaf(node) {
-                visit(item, probe);
-            }
-        }
+    /// Nodes and blocks, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice())
+            + size_of_val(self.triangles.as_slice())
+            + size_of_val(self.spheres.as_slice())
+            + size_of_val(self.instances.as_slice())
     }
-
-    /// Whether `test` holds for any item whose leaf the probe reaches; stops at the first.
-    pub(super) fn any(
-        &self,
-        probe: &Probe,
-        stack: &mut Stack,
-        mut test: impl FnMut(&Item, &Probe) -> bool,
-    ) -> bool {
-        let Some(root) = self.nodes.first() else {
-            return false;
-        };
-        stack.clear();
-        if entered(root, probe).is_some() {
-            stack.push((0, 0.0));
-        }
-        while let Some((index, _)) = stack.pop() {
-            let node = &self.nodes[index as usize];
-            if node.count == 0 {
-                let children = [node.first, node.first + 1];
-                stack.extend(
-                    children
-                        .into_iter()
-                        .filter_map(|c| Some((c, entered(&self.nodes[c as usize], probe)?))),
-                );
-            } else if self.leaf(node).iter().any(|item| test(item, probe)) {
-                return true;
-            }
-        }
-        false
-    }
-
-    /// The items of a leaf; none for a node that is not one.
-    fn leaf(&self, node: &Node) -> &[Item] {
-        let first = if node.count == 0 {
-            0
-        } else {
-            node.first as usize
-        };
-        &self.items[first..first + node.count as usize]
-    }
-
-    /// Counts, bytes and cost; no time.
-    pub(super) fn measure(&self) -> Statistics {
-        let leaves = self.nodes.iter().filter(|node| node.count > 0).count();
-        let root_area = self
-            .nodes
-            .first()
-            .map_or(0.0, |root| half_area(&root.bounds));
-        let weighted = self
-            .nodes
-            .iter()
-            .map(|n| half_area(&n.bounds) * (1.0 + f64::from(n.count)));
-        let cost = if root_area > 0.0 {
-            weighted.sum::<f64>() / root_area
-        } else {
-            0.0
-        };
-        Statistics {
-            nodes: self.nodes.len(),
-            leaves,
-            depth: self.depth,
-            bytes: size_of_val(self.nodes.as_slice()) + size_of_val(self.items.as_slice()),
-            sah_cost: cost as f32,
-            build_time: std::time::Duration::ZERO,
-        }
-    }
-}
-
-/// Where the probe enters a node that it can still reach.
-fn entered(node: &Node, probe: &Probe) -> Option<f32> {
-    let (near, far) = probe.slab.interval(&node.bounds);
-    let (near, far) = (near.max(probe.ray.t_min), far.min(probe.ray.t_max));
-    (near <= far).then_some(near)
-}
-
-fn half_area(bounds: &Bounds) -> f64 {
-    let d = bounds.max.as_dvec3() - bounds.min.as_dvec3();
-    d.x * d.y + d.y * d.z + d.z * d.x
 }

@@ -8,10 +8,8 @@ use crate::geometry::Bounds;
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {
-    /// The least coordinates: of each axis, those of the eight children.
-    pub(super) min: [[f32; 8]; 3],
-    /// The greatest.
-    pub(super) max: [[f32; 8]; 3],
+    /// The least coordinates, then the greatest: of each axis, those of the eight children.
+    pub(super) corners: [[[f32; 8]; 3]; 2],
     pub(super) children: [Reference; 8],
 }
 
@@ -51,6 +49,8 @@ pub(super) struct Topology {
 }
 
 impl Reference {
+    /// The first node.
+    pub(super) const ROOT: Reference = Reference(0);
     /// No child. Its box is empty, so that no ray ever follows it.
     pub(super) const NONE: Reference = Reference(0);
 
@@ -76,16 +76,15 @@ impl Reference {
 impl Node {
     /// A node without children.
     pub(super) const EMPTY: Node = Node {
-        min: [[f32::INFINITY; 8]; 3],
-        max: [[f32::NEG_INFINITY; 8]; 3],
+        corners: [[[f32::INFINITY; 8]; 3], [[f32::NEG_INFINITY; 8]; 3]],
         children: [Reference::NONE; 8],
     };
 
     /// Makes `reference`, with these bounds, the child in `slot`, below 8.
     pub(super) fn set(&mut self, slot: usize, bounds: &Bounds, reference: Reference) {
         for axis in 0..3 {
-            self.min[axis][slot] = bounds.min[axis];
-            self.max[axis][slot] = bounds.max[axis];
+            self.corners[0][axis][slot] = bounds.min[axis];
+            self.corners[1][axis][slot] = bounds.max[axis];
         }
         self.children[slot] = reference;
     }

@@ -9,7 +9,7 @@ use super::summary::{self, Done, Seconds, Summary};
 use super::values::{BackgroundValue, Size};
 use glam::Vec3;
 use luch::Error;
-use luch::accel::{self, Accel};
+use luch::accel::{self, Accel, Isa};
 use luch::camera::Camera;
 use luch::load::{self, Asset, CameraChoice, Choices, Viewpoint};
 use luch::output::{self, Display};
@@ -35,6 +35,7 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
 fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let input = arguments.input.as_deref();
     let name = input.unwrap_or(Path::new(FIGURE_4_NAME));
+    let accel_options = accel_options(arguments)?;
     let outputs = Outputs::claim(arguments, name, &Interrupt::watch())?;
 
     let start = Instant::now();
@@ -52,7 +53,7 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let load = start.elapsed();
     summary::announce(arguments, &asset, &choices);
 
-    let accel = Accel::build(&scene, &accel_options(arguments));
+    let accel = Accel::build(&scene, &accel_options);
     let progress = Progress::default();
     let film = progress::shown(arguments.quiet, &progress, || {
         render(&scene, &accel, &settings, &progress)
@@ -146,11 +147,13 @@ fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Result<Viewpoi
     })
 }
 
-fn accel_options(arguments: &RenderArguments) -> accel::Options {
-    accel::Options {
+fn accel_options(arguments: &RenderArguments) -> Result<accel::Options, Failure> {
+    Ok(accel::Options {
         preset: arguments.bvh.into(),
         leaf_size: arguments.leaf_size,
-    }
+        isa: Isa::asked().map_err(Failure::usage_or_scene)?,
+        ..accel::Options::default()
+    })
 }
 
 fn output_options(

@@ -14,9 +14,7 @@ pub struct RaySpace {
     origin: Vec3,
     /// The axis along which the direction is longest, which becomes the third.
     longest: Axis,
-    /// What each unit along the third axis moves the ray along the first and the second.
     slope: Vec2,
-    /// `t` for each unit along the third axis.
     per_unit: f32,
 }
 
@@ -43,14 +41,33 @@ impl RaySpace {
             origin: ray.origin,
             longest,
             slope: d.xy() / d.z,
-            per_unit: 1.0 / d.z,
+            per_unit: (1.0 / d.z).clamp(f32::MIN, f32::MAX),
         }
     }
 
-    /// A point in this space: its distance from the ray along two axes, and `t`.
+    /// The axes of the world in the order of this space: 0 is X.
+    pub(crate) fn axes(&self) -> [usize; 3] {
+        match self.longest {
+            Axis::X => [1, 2, 0],
+            Axis::Y => [2, 0, 1],
+            Axis::Z => [0, 1, 2],
+        }
+    }
+
+    /// What each unit along the third axis moves the ray along the first and the second.
+    pub(crate) fn slope(&self) -> Vec2 {
+        self.slope
+    }
+
+    /// `t` for each unit along the third axis.
+    pub(crate) fn per_unit(&self) -> f32 {
+        self.per_unit
+    }
+
+    /// A point in this space: its distance from the ray along two axes, and where along the third it is.
     fn place(&self, point: Vec3) -> Vec3 {
         let p = self.longest.last(point - self.origin);
-        (p.xy() - self.slope * p.z).extend(p.z * self.per_unit)
+        (p.xy() - self.slope * p.z).extend(p.z)
     }
 }
 
@@ -97,10 +114,11 @@ impl Triangle {
         if !inside || sum == 0.0 {
             return None;
         }
-        let (v, w) = (weight_b / sum, weight_c / sum);
-        let t = (1.0 - v - w) * a.z + v * b.z + w * c.z;
+        let reciprocal = 1.0 / sum;
+        let (v, w) = (weight_b * reciprocal, weight_c * reciprocal);
+        let z = (1.0 - v - w) * a.z + v * b.z + w * c.z;
         Some(TriangleHit {
-            t,
+            t: z * ray.per_unit,
             barycentric: [v, w],
         })
     }

@@ -1,0 +1,256 @@
+//! AVX2: eight lanes in a register, sixteen in two.
+//!
+//! Every `unsafe` here calls instructions of AVX and AVX2. It is sound since values of these types come to be only
+//! inside the entries of [`super`], which run only where an [`super::Isa`] says that the CPU has both.
+
+use super::float::{Float, Machine};
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Sub};
+
+pub(super) struct Avx2;
+
+#[derive(Clone, Copy)]
+pub(super) struct F8(__m256);
+
+#[derive(Clone, Copy)]
+pub(super) struct F16(F8, F8);
+
+impl Machine for Avx2 {
+    type F8 = F8;
+    type F16 = F16;
+
+    #[inline(always)]
+    fn prefetch<T>(from: &T) {
+        // SAFETY: a prefetch reads nothing that a program could see; SSE is part of x86-64.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(from).cast()) }
+    }
+}
+
+impl Float<8> for F8 {
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { F8(_mm256_set1_ps(x)) }
+    }
+
+    #[inline(always)]
+    fn load(from: &[f32; 8]) -> Self {
+        // SAFETY: as said at the head of the file; the array has all that is read.
+        unsafe { F8(_mm256_loadu_ps(from.as_ptr())) }
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f32; 8]) {
+        // SAFETY: as said at the head of the file; the array has room for all that is written.
+        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { F8(_mm256_min_ps(self.0, other.0)) }
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { F8(_mm256_max_ps(self.0, other.0)) }
+    }
+
+    #[inline(always)]
+    fn le(self, other: Self) -> u32 {
+        // SAFETY: as said at the head of the file.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> u32 {
+        // SAFETY: as said at the head of the file.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
+    }
+
+    #[inline(always)]
+    fn eq(self, other: Self) -> u32 {
+        // SAFETY: as said at the head of the file.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_EQ_OQ>(self.0, other.0)) as u32 }
+    }
+
+    #[inline(always)]
+    fn least(self) -> f32 {
+        // SAFETY: as said at the head of the file.
+        unsafe {
+            let four = _mm_min_ps(_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0));
+            let two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+            _mm_cvtss_f32(_mm_min_ss(two, _mm_movehdup_ps(two)))
+        }
+    }
+
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        // SAFETY: as said at the head of the file.
+        unsafe {
+            let four = _mm_max_ps(_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0));
+            let two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+            _mm_cvtss_f32(_mm_max_ss(two, _mm_movehdup_ps(two)))
+        }
+    }
+
+    #[inline(always)]
+    fn select(mask: u32, yes: Self, no: Self) -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { 
+            let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+            let chosen = _mm256_and_si256(_mm256_set1_epi32(mask as i32), bits);
+            let lanes = _mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, bits));
+            F8(_mm256_blendv_ps(no.0, yes.0, lanes))
+         }
+    }
+}
+
+impl Add for F8 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { F8(_mm256_add_ps(self.0, other.0)) }
+    }
+}
+
+impl Sub for F8 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { F8(_mm256_sub_ps(self.0, other.0)) }
+    }
+}
+
+impl Mul for F8 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { F8(_mm256_mul_ps(self.0, other.0)) }
+    }
+}
+
+impl Div for F8 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { F8(_mm256_div_ps(self.0, other.0)) }
+    }
+}
+
+impl Float<16> for F16 {
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        F16(F8::splat(x), F8::splat(x))
+    }
+
+    #[inline(always)]
+    fn load(from: &[f32; 16]) -> Self {
+        let (low, high) = from.split_at(8);
+        // SAFETY: as said at the head of the file; each half has the eight that are read.
+        unsafe {
+            F16(
+                F8(_mm256_loadu_ps(low.as_ptr())),
+                F8(_mm256_loadu_ps(high.as_ptr())),
+            )
+        }
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut [f32; 16]) {
+        let (low, high) = to.split_at_mut(8);
+        // SAFETY: as said at the head of the file; each half has room for the eight that are written.
+        unsafe {
+            _mm256_storeu_ps(low.as_mut_ptr(), self.0.0);
+            _mm256_storeu_ps(high.as_mut_ptr(), self.1.0);
+        }
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        F16(self.0.min(other.0), self.1.min(other.1))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        F16(self.0.max(other.0), self.1.max(other.1))
+    }
+
+    #[inline(always)]
+    fn le(self, other: Self) -> u32 {
+        self.0.le(other.0) | self.1.le(other.1) << 8
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Self) -> u32 {
+        self.0.lt(other.0) | self.1.lt(other.1) << 8
+    }
+
+    #[inline(always)]
+    fn eq(self, other: Self) -> u32 {
+        self.0.eq(other.0) | self.1.eq(other.1) << 8
+    }
+
+    #[inline(always)]
+    fn least(self) -> f32 {
+        self.0.min(self.1).least()
+    }
+
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        self.0.max(self.1).greatest()
+    }
+
+    #[inline(always)]
+    fn select(mask: u32, yes: Self, no: Self) -> Self {
+        F16(
+            F8::select(mask, yes.0, no.0),
+            F8::select(mask >> 8, yes.1, no.1),
+        )
+    }
+}
+
+impl Add for F16 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        F16(self.0 + other.0, self.1 + other.1)
+    }
+}
+
+impl Sub for F16 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        F16(self.0 - other.0, self.1 - other.1)
+    }
+}
+
+impl Mul for F16 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        F16(self.0 * other.0, self.1 * other.1)
+    }
+}
+
+impl Div for F16 {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        F16(self.0 / other.0, self.1 / other.1)
+    }
+}
