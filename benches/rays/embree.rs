@@ -1,0 +1,441 @@
+//! The door to Embree 4, loaded at run time: the few functions that answer the same two questions as `luch::accel`.
+//!
+//! Layouts and constants are those of `embree4/rtcore_*.h`, version 4.3 and 4.4.
+#![allow(
+    unsafe_code,
+    reason = "calling a C library is unsafe; nothing outside this file knows that it is one"
+)]
+
+use glam::Vec3;
+use libloading::Library;
+use luch::ray::Ray;
+use std::ffi::{CString, c_char, c_int, c_uint, c_void};
+use std::path::Path;
+use std::ptr::{null, null_mut};
+use std::sync::atomic::{AtomicIsize, Ordering::Relaxed};
+use std::time::{Duration, Instant};
+
+/// `RTCRay`.
+#[derive(Clone, Copy)]
+#[repr(C, align(16))]
+pub(crate) struct RtcRay {
+    origin: [f32; 3],
+    near: f32,
+    direction: [f32; 3],
+    time: f32,
+    far: f32,
+    mask: u32,
+    id: u32,
+    flags: u32,
+}
+
+/// `RTCHit`; the last two are for instances.
+#[derive(Clone, Copy)]
+#[repr(C, align(16))]
+struct RtcHit {
+    normal: [f32; 3],
+    uv: [f32; 2],
+    primitive: u32,
+    geometry: u32,
+    instance: u32,
+    instance_primitive: u32,
+}
+
+/// `RTCRayHit`.
+#[repr(C, align(16))]
+struct RtcRayHit {
+    ray: RtcRay,
+    hit: RtcHit,
+}
+
+/// `RTCRay16`.
+#[derive(Clone)]
+#[repr(C, align(64))]
+pub(crate) struct RtcRay16 {
+    origin: [[f32; 16]; 3],
+    near: [f32; 16],
+    direction: [[f32; 16]; 3],
+    time: [f32; 16],
+    far: [f32; 16],
+    mask: [u32; 16],
+    id: [u32; 16],
+    flags: [u32; 16],
+}
+
+/// `RTCHit16`.
+#[repr(C, align(64))]
+struct RtcHit16 {
+    normal: [[f32; 16]; 3],
+    uv: [[f32; 16]; 2],
+    primitive: [u32; 16],
+    geometry: [u32; 16],
+    instance: [u32; 16],
+    instance_primitive: [u32; 16],
+}
+
+/// `RTCRayHit16`.
+#[repr(C, align(64))]
+struct RtcRayHit16 {
+    ray: RtcRay16,
+    hit: RtcHit16,
+}
+
+/// `RTCIntersectArguments` and `RTCOccludedArguments`, which are alike.
+#[repr(C)]
+struct Arguments {
+    flags: c_uint,
+    features: c_uint,
+    context: *mut c_void,
+    filter: *mut c_void,
+    user_geometry: *mut c_void,
+    /// Only in libraries that were built with minimal curve widths; beyond the end for others.
+    min_width_distance_factor: f32,
+}
+
+const _: () = assert!(size_of::<RtcRay>() == 48 && size_of::<RtcRayHit>() == 96);
+const _: () = assert!(size_of::<RtcRay16>() == 768 && size_of::<RtcRayHit16>() == 1344);
+const _: () = assert!(size_of::<Arguments>() == 40);
+
+const INVALID: u32 = u32::MAX;
+/// `RTC_RAY_QUERY_FLAG_COHERENT`.
+const COHERENT: c_uint = 1 << 16;
+/// `RTC_FEATURE_FLAG_ALL`.
+const ALL_FEATURES: c_uint = u32::MAX;
+/// `RTC_SCENE_FLAG_ROBUST`.
+const ROBUST: c_int = 1 << 2;
+/// `RTC_BUFFER_TYPE_INDEX`, `RTC_FORMAT_UINT3`.
+const INDICES: [c_int; 2] = [0, 0x5003];
+/// `RTC_BUFFER_TYPE_VERTEX`, `RTC_FORMAT_FLOAT3`.
+const VERTICES: [c_int; 2] = [1, 0x9003];
+
+type Handle = *mut c_void;
+type MemoryMonitor = extern "C" fn(*mut c_void, isize, bool) -> bool;
+
+/// A loaded library.
+pub(crate) struct Embree {
+    new_device: unsafe extern "C" fn(*const c_char) -> Handle,
+    release_device: unsafe extern "C" fn(Handle),
+    device_error: unsafe extern "C" fn(Handle) -> c_int,
+    monitor_memory: unsafe extern "C" fn(Handle, MemoryMonitor, *mut c_void),
+    new_geometry: unsafe extern "C" fn(Handle, c_int) -> Handle,
+    new_buffer: unsafe extern "C" fn(Handle, c_int, c_uint, c_int, usize, usize) -> *mut c_void,
+    commit_geometry: unsafe extern "C" fn(Handle),
+    release_geometry: unsafe extern "C" fn(Handle),
+    new_scene: unsafe extern "C" fn(Handle) -> Handle,
+    attach_geometry: unsafe extern "C" fn(Handle, Handle) -> c_uint,
+    set_quality: unsafe extern "C" fn(Handle, c_int),
+    set_flags: unsafe extern "C" fn(Handle, c_int),
+    commit_scene: unsafe extern "C" fn(Handle),
+    release_scene: unsafe extern "C" fn(Handle),
+    intersect: unsafe extern "C" fn(Handle, *mut RtcRayHit, *const Arguments),
+    occluded: unsafe extern "C" fn(Handle, *mut RtcRay, *const Arguments),
+    intersect16: unsafe extern "C" fn(*const c_int, Handle, *mut RtcRayHit16, *const Arguments),
+    occluded16: unsafe extern "C" fn(*const c_int, Handle, *mut RtcRay16, *const Arguments),
+    /// Last: the functions above are in it.
+    _library: Library,
+}
+
+/// Embree's build qualities.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Quality {
+    Medium = 1,
+    High = 2,
+}
+
+/// How a scene is built.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Build {
+    pub(crate) quality: Quality,
+    pub(crate) robust: bool,
+    pub(crate) threads: usize,
+}
+
+/// A built scene.
+pub(crate) struct EmbreeScene<'a> {
+    embree: &'a Embree,
+    device: Handle,
+    scene: Handle,
+    memory: Box<Memory>,
+    pub(crate) build_time: Duration,
+}
+
+/// Bytes, as Embree tells them.
+#[derive(Default)]
+struct Memory {
+    now: AtomicIsize,
+    peak: AtomicIsize,
+}
+
+/// The nearest hit: distance and triangle.
+pub(crate) type Nearest = Option<(f32, u32)>;
+
+impl Embree {
+    /// Loads the library in a file.
+    pub(crate) fn load(path: &Path) -> Result<Embree, String> {
+        let error = |error| format!("{}: {error}", path.display());
+        // SAFETY: Embree's initialisers have no preconditions; whoever names another library answers for it.
+        let library = unsafe { Library::new(path) }.map_err(error)?;
+        // SAFETY: each field's type is that of the function of this name in Embree 4's headers.
+        unsafe {
+            Ok(Embree {
+                new_device: symbol(&library, "rtcNewDevice")?,
+                release_device: symbol(&library, "rtcReleaseDevice")?,
+                device_error: symbol(&library, "rtcGetDeviceError")?,
+                monitor_memory: symbol(&library, "rtcSetDeviceMemoryMonitorFunction")?,
+                new_geometry: symbol(&library, "rtcNewGeometry")?,
+                new_buffer: symbol(&library, "rtcSetNewGeometryBuffer")?,
+                commit_geometry: symbol(&library, "rtcCommitGeometry")?,
+                release_geometry: symbol(&library, "rtcReleaseGeometry")?,
+                new_scene: symbol(&library, "rtcNewScene")?,
+                attach_geometry: symbol(&library, "rtcAttachGeometry")?,
+                set_quality: symbol(&library, "rtcSetSceneBuildQuality")?,
+                set_flags: symbol(&library, "rtcSetSceneFlags")?,
+                commit_scene: symbol(&library, "rtcCommitScene")?,
+                release_scene: symbol(&library, "rtcReleaseScene")?,
+                intersect: symbol(&library, "rtcIntersect1")?,
+                occluded: symbol(&library, "rtcOccluded1")?,
+                intersect16: symbol(&library, "rtcIntersect16")?,
+                occluded16: symbol(&library, "rtcOccluded16")?,
+                _library: library,
+            })
+        }
+    }
+
+    /// Builds a scene of triangles; their numbers are their places in the slice.
+    pub(crate) fn build(
+        &self,
+        positions: &[Vec3],
+        triangles: &[[u32; 3]],
+        build: Build,
+    ) -> Result<EmbreeScene<'_>, String> {
+        let config = CString::new(format!("threads={}", build.threads)).unwrap_or_default();
+        let memory = Box::<Memory>::default();
+        // SAFETY: the handles come from this library and are not null (a null device is refused by the next check;
+        // the others are null only with a device's error, and Embree's functions take them then without harm). The
+        // monitor's pointer is to a box that outlives the device, see `Drop`.
+        unsafe {
+            let device = (self.new_device)(config.as_ptr());
+            if device.is_null() {
+                return Err(format!(
+                    "Embree gives no device: error {}",
+                    (self.device_error)(null_mut())
+                ));
+            }
+            (self.monitor_memory)(device, note_memory, (&raw const *memory).cast_mut().cast());
+            let geometry = (self.new_geometry)(device, 0);
+            self.fill(geometry, VERTICES, positions)?;
+            self.fill(geometry, INDICES, triangles)?;
+            let start = Instant::now();
+            (self.commit_geometry)(geometry);
+            let scene = (self.new_scene)(device);
+            (self.attach_geometry)(scene, geometry);
+            (self.release_geometry)(geometry);
+            (self.set_quality)(scene, build.quality as c_int);
+            (self.set_flags)(scene, if build.robust { ROBUST } else { 0 });
+            // What the buffers take is no part of the tree.
+            let buffers = memory.now.load(Relaxed);
+            memory.peak.store(buffers, Relaxed);
+            (self.commit_scene)(scene);
+            let build_time = start.elapsed();
+            memory.now.fetch_sub(buffers, Relaxed);
+            memory.peak.fetch_sub(buffers, Relaxed);
+            let built = EmbreeScene {
+                embree: self,
+                device,
+                scene,
+                memory,
+                build_time,
+            };
+            match (self.device_error)(device) {
+                0 => Ok(built),
+                code => Err(format!("Embree builds no scene: error {code}")),
+            }
+        }
+    }
+
+    /// Copies items of 12 bytes into a new buffer of the geometry.
+    ///
+    /// # Safety
+    ///
+    /// `geometry` is one of this library, and `T` is three numbers of 32 bits.
+    unsafe fn fill<T: Copy>(
+        &self,
+        geometry: Handle,
+        [kind, format]: [c_int; 2],
+        items: &[T],
+    ) -> Result<(), String> {
+        const { assert!(size_of::<T>() == 12) };
+        // SAFETY: Embree gives a buffer of `items.len()` items of 12 bytes (and padding) or null.
+        unsafe {
+            let buffer = (self.new_buffer)(geometry, kind, 0, format, 12, items.len());
+            if buffer.is_null() {
+                return Err("Embree gives no buffer".into());
+            }
+            std::ptr::copy_nonoverlapping(items.as_ptr(), buffer.cast::<T>(), items.len());
+        }
+        Ok(())
+    }
+}
+
+/// # Safety
+///
+/// `F` is the type of the function of this name.
+unsafe fn symbol<F: Copy>(library: &Library, name: &str) -> Result<F, String> {
+    // SAFETY: as above.
+    let found = unsafe { library.get::<F>(name.as_bytes()) };
+    found
+        .map(|f| *f)
+        .map_err(|_| format!("not an Embree 4: it has no {name}"))
+}
+
+extern "C" fn note_memory(memory: *mut c_void, bytes: isize, _after: bool) -> bool {
+    // SAFETY: the pointer that `build` gave, to a box that outlives the device.
+    let memory = unsafe { &*memory.cast::<Memory>() };
+    let now = memory.now.fetch_add(bytes, Relaxed) + bytes;
+    memory.peak.fetch_max(now, Relaxed);
+    true
+}
+
+// SAFETY: a committed scene may be searched from any number of threads.
+unsafe impl Sync for EmbreeScene<'_> {}
+
+impl EmbreeScene<'_> {
+    /// What the tree takes, and the most that its build took; bytes.
+    pub(crate) fn memory(&self) -> [isize; 2] {
+        [
+            self.memory.now.load(Relaxed),
+            self.memory.peak.load(Relaxed),
+        ]
+    }
+
+    /// The nearest hit, by `rtcIntersect1`.
+    #[inline]
+    pub(crate) fn intersect(&self, ray: &RtcRay) -> Nearest {
+        let hit = RtcHit {
+            normal: [0.0; 3],
+            uv: [0.0; 2],
+            primitive: INVALID,
+            geometry: INVALID,
+            instance: INVALID,
+            instance_primitive: INVALID,
+        };
+        let mut ray_hit = RtcRayHit { ray: *ray, hit };
+        // SAFETY: the scene is committed, the structure aligned; null stands for the default arguments.
+        unsafe { (self.embree.intersect)(self.scene, &mut ray_hit, null()) };
+        (ray_hit.hit.geometry != INVALID).then_some((ray_hit.ray.far, ray_hit.hit.primitive))
+    }
+
+    /// Whether anything is hit, by `rtcOccluded1`.
+    #[inline]
+    pub(crate) fn occluded(&self, ray: &RtcRay) -> bool {
+        let mut ray = *ray;
+        // SAFETY: as in `intersect`.
+        unsafe { (self.embree.occluded)(self.scene, &mut ray, null()) };
+        ray.far == f32::NEG_INFINITY
+    }
+
+    /// The nearest hits of 16 rays, by `rtcIntersect16` for coherent rays.
+    #[inline]
+    pub(crate) fn intersect16(&self, rays: &RtcRay16) -> [Nearest; 16] {
+        let none = [INVALID; 16];
+        let hit = RtcHit16 {
+            normal: [[0.0; 16]; 3],
+            uv: [[0.0; 16]; 2],
+            primitive: none,
+            geometry: none,
+            instance: none,
+            instance_primitive: none,
+        };
+        let mut ray_hit = RtcRayHit16 {
+            ray: rays.clone(),
+            hit,
+        };
+        // SAFETY: as in `intersect`; the mask of lanes is 16 numbers, aligned as the rays' ids.
+        unsafe {
+            (self.embree.intersect16)(rays.valid(), self.scene, &mut ray_hit, &Arguments::COHERENT)
+        };
+        let RtcRayHit16 { ray, hit } = ray_hit;
+        std::array::from_fn(|lane| {
+            (hit.geometry[lane] != INVALID).then_some((ray.far[lane], hit.primitive[lane]))
+        })
+    }
+
+    /// Whether each of 16 rays hits anything, by `rtcOccluded16` for coherent rays.
+    #[inline]
+    pub(crate) fn occluded16(&self, rays: &RtcRay16) -> [bool; 16] {
+        let mut ray = rays.clone();
+        // SAFETY: as in `intersect16`.
+        unsafe {
+            (self.embree.occluded16)(rays.valid(), self.scene, &mut ray, &Arguments::COHERENT)
+        };
+        ray.far.map(|far| far == f32::NEG_INFINITY)
+    }
+}
+
+impl Drop for EmbreeScene<'_> {
+    fn drop(&mut self) {
+        // SAFETY: both are this value's own; the scene goes first, the memory's box after both.
+        unsafe {
+            (self.embree.release_scene)(self.scene);
+            (self.embree.release_device)(self.device);
+        }
+    }
+}
+
+impl Arguments {
+    const COHERENT: Arguments = Arguments {
+        flags: COHERENT,
+        features: ALL_FEATURES,
+        context: null_mut(),
+        filter: null_mut(),
+        user_geometry: null_mut(),
+        min_width_distance_factor: 0.0,
+    };
+}
+
+impl RtcRay {
+    pub(crate) fn of(ray: &Ray) -> RtcRay {
+        RtcRay {
+            origin: ray.origin.to_array(),
+            near: ray.t_min,
+            direction: ray.direction.to_array(),
+            time: 0.0,
+            far: ray.t_max,
+            mask: u32::MAX,
+            id: 0,
+            flags: 0,
+        }
+    }
+}
+
+impl RtcRay16 {
+    /// At most 16 rays; lanes without one are not valid.
+    pub(crate) fn of(rays: &[Ray]) -> RtcRay16 {
+        let lanes: [Option<&Ray>; 16] = std::array::from_fn(|lane| rays.get(lane));
+        let numbers = |of: fn(&Ray) -> f32| lanes.map(|ray| ray.map_or(0.0, of));
+        RtcRay16 {
+            origin: [
+                numbers(|r| r.origin.x),
+                numbers(|r| r.origin.y),
+                numbers(|r| r.origin.z),
+            ],
+            near: numbers(|r| r.t_min),
+            direction: [
+                numbers(|r| r.direction.x),
+                numbers(|r| r.direction.y),
+                numbers(|r| r.direction.z),
+            ],
+            time: [0.0; 16],
+            far: numbers(|r| r.t_max),
+            mask: [u32::MAX; 16],
+            // Embree does not read the ids, and it wants its valid lanes as such an array of 0 and -1.
+            id: lanes.map(|ray| if ray.is_some() { u32::MAX } else { 0 }),
+            flags: [0; 16],
+        }
+    }
+
+    /// Which lanes have a ray.
+    fn valid(&self) -> *const c_int {
+        self.id.as_ptr().cast()
+    }
+}
