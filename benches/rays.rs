@@ -13,6 +13,8 @@ mod arguments;
 mod builds;
 #[path = "rays/embree.rs"]
 mod embree;
+#[path = "rays/embree_layouts.rs"]
+mod embree_layouts;
 #[path = "rays/engines.rs"]
 mod engines;
 #[path = "rays/frames.rs"]
@@ -83,7 +85,10 @@ fn run(arguments: &Arguments) -> Result<(), String> {
         builds(&mut results);
     }
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/rays.json");
-    let written = fs::write(&file, format!("{:#}\n", table::json(&results.rows)));
+    // The build's own folder may be elsewhere.
+    let folder = file.parent().map_or(Ok(()), fs::create_dir_all);
+    let written =
+        folder.and_then(|()| fs::write(&file, format!("{:#}\n", table::json(&results.rows))));
     written.map_err(|error| format!("{}: {error}", file.display()))?;
     match &arguments.record {
         Some(name) => results
@@ -108,6 +113,7 @@ fn race_in(
     }
     let accel = Accel::build(&scene, &Options::default());
     let arena = Arena::new(&scene, &accel, embree)?;
+    let rounding = 1e-5 * scene.bounds().extent();
     let sets = sets::make(&scene, &accel, scenes::light(&scene), arguments.size());
     for (kind, set) in Kind::ALL.into_iter().zip(&sets) {
         let round = Round::new(kind, set, arena.has_embree());
@@ -134,7 +140,7 @@ fn race_in(
             measured,
             difference: ours
                 .zip(theirs)
-                .map(|(ours, theirs)| Difference::between(&ours, &theirs)),
+                .map(|(ours, theirs)| Difference::between(&ours, &theirs, rounding)),
             from_oracle: few.then(|| against_oracle(&arena, &round, kind)),
         };
         results.say(row.line());
@@ -148,21 +154,15 @@ fn against_oracle(arena: &Arena, round: &Round, kind: Kind) -> Difference {
     let few = sets::RaySet::in_batches(round.few());
     let round = Round::new(kind, &few, false);
     let of = |engine| arena.answers(engine, &round).unwrap_or_default();
-    Difference::between(&of(Engine::Luch), &of(Engine::Linear))
+    Difference::between(&of(Engine::Luch), &of(Engine::Linear), 0.0)
 }
 
 /// Whole frames, where the interior was among the scenes.
 fn frames(arguments: &Arguments, results: &mut Results) -> Result<(), String> {
-    let interior: Vec<Row> = results
-        .rows
-        .iter()
-        .filter(|row| row.scene == "interior")
-        .cloned()
-        .collect();
-    if interior.is_empty() {
+    if results.rows.iter().all(|row| row.scene != "interior") {
         return Ok(());
     }
-    results.frames = frames::of_interior(&interior, arguments.rounds)?;
+    results.frames = frames::of_interior(arguments)?;
     results.say(format!("\n{}", frames::HEADER));
     let lines: Vec<String> = results.frames.iter().map(frames::line).collect();
     lines.into_iter().for_each(|line| results.say(line));

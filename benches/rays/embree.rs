@@ -1,112 +1,20 @@
 //! The door to Embree 4, loaded at run time: the few functions that answer the same two questions as `luch::accel`.
-//!
-//! Layouts and constants are those of `embree4/rtcore_*.h`, version 4.3 and 4.4.
 #![allow(
     unsafe_code,
     reason = "calling a C library is unsafe; nothing outside this file knows that it is one"
 )]
 
+use super::embree_layouts::{
+    Arguments, INDICES, INVALID, ROBUST, RtcHit, RtcHit16, RtcRay, RtcRay16, RtcRayHit,
+    RtcRayHit16, VERTICES,
+};
 use glam::Vec3;
 use libloading::Library;
-use luch::ray::Ray;
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 use std::path::Path;
 use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicIsize, Ordering::Relaxed};
 use std::time::{Duration, Instant};
-
-/// `RTCRay`.
-#[derive(Clone, Copy)]
-#[repr(C, align(16))]
-pub(crate) struct RtcRay {
-    origin: [f32; 3],
-    near: f32,
-    direction: [f32; 3],
-    time: f32,
-    far: f32,
-    mask: u32,
-    id: u32,
-    flags: u32,
-}
-
-/// `RTCHit`; the last two are for instances.
-#[derive(Clone, Copy)]
-#[repr(C, align(16))]
-struct RtcHit {
-    normal: [f32; 3],
-    uv: [f32; 2],
-    primitive: u32,
-    geometry: u32,
-    instance: u32,
-    instance_primitive: u32,
-}
-
-/// `RTCRayHit`.
-#[repr(C, align(16))]
-struct RtcRayHit {
-    ray: RtcRay,
-    hit: RtcHit,
-}
-
-/// `RTCRay16`.
-#[derive(Clone)]
-#[repr(C, align(64))]
-pub(crate) struct RtcRay16 {
-    origin: [[f32; 16]; 3],
-    near: [f32; 16],
-    direction: [[f32; 16]; 3],
-    time: [f32; 16],
-    far: [f32; 16],
-    mask: [u32; 16],
-    id: [u32; 16],
-    flags: [u32; 16],
-}
-
-/// `RTCHit16`.
-#[repr(C, align(64))]
-struct RtcHit16 {
-    normal: [[f32; 16]; 3],
-    uv: [[f32; 16]; 2],
-    primitive: [u32; 16],
-    geometry: [u32; 16],
-    instance: [u32; 16],
-    instance_primitive: [u32; 16],
-}
-
-/// `RTCRayHit16`.
-#[repr(C, align(64))]
-struct RtcRayHit16 {
-    ray: RtcRay16,
-    hit: RtcHit16,
-}
-
-/// `RTCIntersectArguments` and `RTCOccludedArguments`, which are alike.
-#[repr(C)]
-struct Arguments {
-    flags: c_uint,
-    features: c_uint,
-    context: *mut c_void,
-    filter: *mut c_void,
-    user_geometry: *mut c_void,
-    /// Only in libraries that were built with minimal curve widths; beyond the end for others.
-    min_width_distance_factor: f32,
-}
-
-const _: () = assert!(size_of::<RtcRay>() == 48 && size_of::<RtcRayHit>() == 96);
-const _: () = assert!(size_of::<RtcRay16>() == 768 && size_of::<RtcRayHit16>() == 1344);
-const _: () = assert!(size_of::<Arguments>() == 40);
-
-const INVALID: u32 = u32::MAX;
-/// `RTC_RAY_QUERY_FLAG_COHERENT`.
-const COHERENT: c_uint = 1 << 16;
-/// `RTC_FEATURE_FLAG_ALL`.
-const ALL_FEATURES: c_uint = u32::MAX;
-/// `RTC_SCENE_FLAG_ROBUST`.
-const ROBUST: c_int = 1 << 2;
-/// `RTC_BUFFER_TYPE_INDEX`, `RTC_FORMAT_UINT3`.
-const INDICES: [c_int; 2] = [0, 0x5003];
-/// `RTC_BUFFER_TYPE_VERTEX`, `RTC_FORMAT_FLOAT3`.
-const VERTICES: [c_int; 2] = [1, 0x9003];
 
 type Handle = *mut c_void;
 type MemoryMonitor = extern "C" fn(*mut c_void, isize, bool) -> bool;
@@ -115,6 +23,7 @@ type MemoryMonitor = extern "C" fn(*mut c_void, isize, bool) -> bool;
 pub(crate) struct Embree {
     new_device: unsafe extern "C" fn(*const c_char) -> Handle,
     release_device: unsafe extern "C" fn(Handle),
+    device_property: unsafe extern "C" fn(Handle, c_int) -> isize,
     device_error: unsafe extern "C" fn(Handle) -> c_int,
     monitor_memory: unsafe extern "C" fn(Handle, MemoryMonitor, *mut c_void),
     new_geometry: unsafe extern "C" fn(Handle, c_int) -> Handle,
@@ -180,6 +89,7 @@ impl Embree {
             Ok(Embree {
                 new_device: symbol(&library, "rtcNewDevice")?,
                 release_device: symbol(&library, "rtcReleaseDevice")?,
+                device_property: symbol(&library, "rtcGetDeviceProperty")?,
                 device_error: symbol(&library, "rtcGetDeviceError")?,
                 monitor_memory: symbol(&library, "rtcSetDeviceMemoryMonitorFunction")?,
                 new_geometry: symbol(&library, "rtcNewGeometry")?,
@@ -208,7 +118,10 @@ impl Embree {
         triangles: &[[u32; 3]],
         build: Build,
     ) -> Result<EmbreeScene<'_>, String> {
-        let config = CString::new(format!("threads={}", build.threads)).unwrap_or_default();
+        // So that it can be held to what a lesser machine has: `LUCH_EMBREE_ISA=avx2`.
+        let isa = std::env::var("LUCH_EMBREE_ISA");
+        let isa = isa.map_or(String::new(), |isa| format!(",max_isa={isa}"));
+        let config = CString::new(format!("threads={}{isa}", build.threads)).unwrap_or_default();
         let memory = Box::<Memory>::default();
         // SAFETY: the handles come from this library and are not null (a null device is refused by the next check;
         // the others are null only with a device's error, and Embree's functions take them then without harm). The
@@ -308,6 +221,18 @@ impl EmbreeScene<'_> {
         ]
     }
 
+    /// The widest instructions it uses, told by the packets that it takes whole.
+    pub(crate) fn isa(&self) -> &'static str {
+        // SAFETY: the device is this library's own. 1 and 2 are RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED and _RAY16_.
+        let [eight, sixteen] =
+            [1, 2].map(|property| unsafe { (self.embree.device_property)(self.device, property) });
+        match (eight, sixteen) {
+            (_, 1) => "avx512",
+            (1, _) => "avx2",
+            _ => "sse",
+        }
+    }
+
     /// The nearest hit, by `rtcIntersect1`.
     #[inline]
     pub(crate) fn intersect(&self, ray: &RtcRay) -> Nearest {
@@ -379,63 +304,5 @@ impl Drop for EmbreeScene<'_> {
             (self.embree.release_scene)(self.scene);
             (self.embree.release_device)(self.device);
         }
-    }
-}
-
-impl Arguments {
-    const COHERENT: Arguments = Arguments {
-        flags: COHERENT,
-        features: ALL_FEATURES,
-        context: null_mut(),
-        filter: null_mut(),
-        user_geometry: null_mut(),
-        min_width_distance_factor: 0.0,
-    };
-}
-
-impl RtcRay {
-    pub(crate) fn of(ray: &Ray) -> RtcRay {
-        RtcRay {
-            origin: ray.origin.to_array(),
-            near: ray.t_min,
-            direction: ray.direction.to_array(),
-            time: 0.0,
-            far: ray.t_max,
-            mask: u32::MAX,
-            id: 0,
-            flags: 0,
-        }
-    }
-}
-
-impl RtcRay16 {
-    /// At most 16 rays; lanes without one are not valid.
-    pub(crate) fn of(rays: &[Ray]) -> RtcRay16 {
-        let lanes: [Option<&Ray>; 16] = std::array::from_fn(|lane| rays.get(lane));
-        let numbers = |of: fn(&Ray) -> f32| lanes.map(|ray| ray.map_or(0.0, of));
-        RtcRay16 {
-            origin: [
-                numbers(|r| r.origin.x),
-                numbers(|r| r.origin.y),
-                numbers(|r| r.origin.z),
-            ],
-            near: numbers(|r| r.t_min),
-            direction: [
-                numbers(|r| r.direction.x),
-                numbers(|r| r.direction.y),
-                numbers(|r| r.direction.z),
-            ],
-            time: [0.0; 16],
-            far: numbers(|r| r.t_max),
-            mask: [u32::MAX; 16],
-            // Embree does not read the ids, and it wants its valid lanes as such an array of 0 and -1.
-            id: lanes.map(|ray| if ray.is_some() { u32::MAX } else { 0 }),
-            flags: [0; 16],
-        }
-    }
-
-    /// Which lanes have a ray.
-    fn valid(&self) -> *const c_int {
-        self.id.as_ptr().cast()
     }
 }

@@ -1,6 +1,7 @@
 //! Who answers: luch, its oracle, and Embree in three ways.
 
-use super::embree::{Build, Embree, EmbreeScene, Nearest, Quality, RtcRay, RtcRay16};
+use super::embree::{Build, Embree, EmbreeScene, Nearest, Quality};
+use super::embree_layouts::{RtcRay, RtcRay16};
 use super::scenes;
 use super::sets::{Kind, RaySet};
 use luch::accel::{Accel, linear};
@@ -52,15 +53,6 @@ impl Engine {
             Kind::Mirror | Kind::Incoherent => Engine::EmbreeRobust,
         }
     }
-
-    /// Which instructions it uses, as far as the bench knows.
-    pub(crate) fn isa(self) -> String {
-        match self {
-            Engine::Luch => luch_isa(),
-            Engine::Linear => "scalar".into(),
-            _ => "its own choice".into(),
-        }
-    }
 }
 
 /// The instruction set of luch's kernels.
@@ -106,7 +98,7 @@ pub(crate) struct Round<'a> {
 }
 
 /// How many rays the oracle gets.
-const FEW: usize = 500;
+const FEW: usize = 200;
 
 impl<'a> Round<'a> {
     pub(crate) fn new(kind: Kind, set: &'a RaySet, with_embree: bool) -> Round<'a> {
@@ -166,6 +158,15 @@ impl<'a> Arena<'a> {
             plain: build(false)?,
             robust: build(true)?,
         })
+    }
+
+    /// Which instructions an engine uses.
+    pub(crate) fn isa(&self, engine: Engine) -> String {
+        match engine {
+            Engine::Luch => luch_isa(),
+            Engine::Linear => "scalar".into(),
+            _ => self.embree(engine).map_or("none", EmbreeScene::isa).into(),
+        }
     }
 
     pub(crate) fn has_embree(&self) -> bool {

@@ -1,9 +1,10 @@
 //! A whole frame of the interior, held against its bare rays: what shading, textures and film cost.
 
-use super::engines::{Engine, Threads};
-use super::sets::Kind;
-use super::table::Row;
-use super::{measure, scenes};
+use super::arguments::Arguments;
+use super::engines::{Arena, Engine, Round, Threads};
+use super::measure::median;
+use super::scenes;
+use super::sets::{self, Kind};
 use luch::accel::{Accel, Options};
 use luch::generate::Decoration;
 use luch::render::{Progress, Settings, render};
@@ -15,48 +16,56 @@ use rayon::ThreadPoolBuilder;
 pub(crate) struct FrameRow {
     pub(crate) decoration: Decoration,
     /// Camera, shadow and mirror rays.
-    pub(crate) rays: [u64; 3],
+    rays: [u64; 3],
     pub(crate) mrays_per_second: f64,
-    /// What the kernels alone would reach on so many rays of each kind; rays through transparent surfaces are none.
+    /// What the kernels alone reach on so many rays of each kind.
     pub(crate) bare_mrays_per_second: f64,
 }
 
-/// Both interiors at 1280 x 720, 4 samples a pixel; `interior` are the rows of their bare rays.
-pub(crate) fn of_interior(interior: &[Row], rounds: usize) -> Result<Vec<FrameRow>, String> {
+/// Both interiors at 1280 x 720, 4 samples a pixel. Frames and bare rays take turns.
+pub(crate) fn of_interior(arguments: &Arguments) -> Result<Vec<FrameRow>, String> {
     let settings =
         Settings::new(1280, 720, 4, 5, Shading::BlinnPhong).map_err(|e| e.to_string())?;
     let pool = ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
         .map_err(|e| e.to_string())?;
-    let bare = |kind| {
-        let row = interior.iter().find(|row| row.kind == kind)?;
-        row.rate(Engine::Luch, Threads::One)
-    };
     let mut rows = Vec::new();
     for decoration in [Decoration::Plain, Decoration::Textured] {
         let scene = scenes::interior(decoration)?;
         let accel = Accel::build(&scene, &Options::default());
-        let frame = || pool.install(|| render(&scene, &accel, &settings, &Progress::default()));
-        let counts = frame().statistics;
+        let frame = || {
+            pool.install(|| render(&scene, &accel, &settings, &Progress::default()))
+                .statistics
+        };
+        let counts = frame();
         let rays = [counts.camera_rays, counts.shadow_rays, counts.mirror_rays];
-        let rates: Vec<f64> = (0..rounds)
-            .map(|_| counts.rays() as f64 / frame().statistics.time.as_secs_f64() / 1e6)
-            .collect();
+
+        let arena = Arena::new(&scene, &accel, None)?;
+        let sets = sets::make(&scene, &accel, scenes::light(&scene), arguments.size());
         let kinds = [Kind::Primary, Kind::Shadow, Kind::Mirror];
-        let bare_seconds: Option<f64> = rays
-            .iter()
-            .zip(kinds)
-            .map(|(&n, kind)| Some(n as f64 / 1e6 / bare(kind)?))
-            .sum();
-        let Some(bare_seconds) = bare_seconds else {
-            continue;
+        let bare = kinds.map(|kind| Round::new(kind, &sets[kind as usize], false));
+        let bare_seconds = || -> f64 {
+            let of_kind = |(round, &rays): (&Round, &u64)| {
+                let seconds = arena
+                    .seconds(Engine::Luch, round, Threads::One)
+                    .unwrap_or(0.0);
+                seconds * rays as f64 / round.rays(Engine::Luch).max(1) as f64
+            };
+            bare.iter().zip(&rays).map(of_kind).sum()
+        };
+        let million: f64 = rays.iter().sum::<u64>() as f64 / 1e6;
+        let seconds: Vec<[f64; 2]> = (0..arguments.rounds)
+            .map(|_| [frame().time.as_secs_f64(), bare_seconds()])
+            .collect();
+        let rate = |which: usize| {
+            million / median(&seconds.iter().map(|s| s[which]).collect::<Vec<f64>>())
         };
         rows.push(FrameRow {
             decoration,
             rays,
-            mrays_per_second: measure::median(&rates),
-            bare_mrays_per_second: rays.iter().sum::<u64>() as f64 / 1e6 / bare_seconds,
+            mrays_per_second: rate(0),
+            bare_mrays_per_second: rate(1),
         });
     }
     Ok(rows)

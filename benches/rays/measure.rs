@@ -6,6 +6,7 @@ use super::engines::{Answer, Arena, Engine, Round, Threads};
 #[derive(Clone, Debug)]
 pub(crate) struct Measured {
     pub(crate) engine: Engine,
+    pub(crate) isa: String,
     pub(crate) threads: Threads,
     /// Of every round, in order.
     pub(crate) mrays_per_second: Vec<f64>,
@@ -41,6 +42,7 @@ pub(crate) fn race(
         .iter()
         .map(|&engine| Measured {
             engine,
+            isa: arena.isa(engine),
             threads,
             mrays_per_second: Vec::new(),
         })
@@ -78,7 +80,8 @@ pub(crate) struct Difference {
 }
 
 impl Difference {
-    pub(crate) fn between(ours: &[Answer], theirs: &[Answer]) -> Difference {
+    /// `rounding` is how far apart two distances may be and still count as one.
+    pub(crate) fn between(ours: &[Answer], theirs: &[Answer], rounding: f32) -> Difference {
         let mut difference = Difference {
             rays: ours.len(),
             ..Difference::default()
@@ -87,7 +90,7 @@ impl Difference {
             match pair {
                 (Some((t, primitive)), Some((their_t, their_primitive))) => {
                     if primitive != their_primitive {
-                        if (t - their_t).abs() <= 1e-5 * t.abs().max(1e-3) {
+                        if (t - their_t).abs() <= rounding {
                             difference.ties += 1;
                         } else {
                             difference.primitive += 1;

@@ -46,7 +46,7 @@ impl Results {
                     .map(|r| format!("{r:.4}"))
                     .collect();
                 let (scene, triangles, kind) = (&row.scene, row.triangles, row.kind.name());
-                let (engine, isa, threads) = (m.engine.name(), m.engine.isa(), m.threads.count());
+                let (engine, isa, threads) = (m.engine.name(), &m.isa, m.threads.count());
                 let (median, rounds) = (m.median(), rounds.join(" "));
                 csv += &format!(
                     "rays,{scene},{triangles},{kind},{engine},{isa},{threads},{median:.4},Mrays/s,{rounds}\n"

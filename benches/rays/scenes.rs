@@ -90,18 +90,43 @@ fn open(file: &Path) -> Result<Scene, String> {
     Ok(scene)
 }
 
-/// A closed body of 81,920 triangles with hollows and bulges of several sizes, like a scanned figure.
+/// A closed body of 69,312 triangles with hollows and bulges of several sizes, like a scanned figure: a cube of grids
+/// of 76 x 76, blown up to a sphere and displaced. Vertices that two sides share have the same bits.
 fn statue() -> Mesh {
-    let mut mesh = generate::icosphere(6);
-    for p in &mut mesh.positions {
-        let wave = |frequency: f32, phase: f32| {
-            let q = *p * frequency;
-            libm::sinf(q.x + phase) * libm::sinf(q.y + 1.3 * phase) * libm::sinf(q.z + 2.1 * phase)
-        };
-        let height = 0.28 * wave(2.5, 0.4) + 0.12 * wave(6.0, 1.0) + 0.04 * wave(19.0, 2.0);
-        *p *= 0.9 + height + 0.02 * wave(47.0, 3.0);
+    const CELLS: i32 = 76;
+    let mut mesh = Mesh::default();
+    for (axis, end) in (0..3).flat_map(|axis| [(axis, CELLS), (axis, -CELLS)]) {
+        let first = mesh.positions.len() as u32;
+        let row = CELLS as u32 + 1;
+        for (i, j) in (0..=CELLS).flat_map(|j| (0..=CELLS).map(move |i| (i, j))) {
+            let mut lattice = [end; 3];
+            lattice[(axis + 1) % 3] = 2 * i - CELLS;
+            lattice[(axis + 2) % 3] = 2 * j - CELLS;
+            mesh.positions
+                .push(skin(lattice.map(|x| x as f32 / CELLS as f32)));
+        }
+        let cells = (1..row).flat_map(|j| (1..row).map(move |i| first + j * row + i));
+        mesh.triangles.extend(cells.flat_map(|d| {
+            let (c, b, a) = (d - 1, d - row, d - row - 1);
+            if end > 0 {
+                [[a, b, d], [a, d, c]]
+            } else {
+                [[a, d, b], [a, c, d]]
+            }
+        }));
     }
     mesh
+}
+
+/// Where the statue has a point of the cube.
+fn skin(of_cube: [f32; 3]) -> Vec3 {
+    let p = Vec3::from(of_cube).normalize();
+    let wave = |frequency: f32, phase: f32| {
+        let q = (p * frequency + Vec3::new(1.0, 1.3, 2.1) * phase).map(libm::sinf);
+        q.x * q.y * q.z
+    };
+    let height = 0.28 * wave(2.5, 0.4) + 0.12 * wave(6.0, 1.0) + 0.04 * wave(19.0, 2.0);
+    p * (0.9 + height + 0.02 * wave(47.0, 3.0))
 }
 
 /// The point light whose shadows are asked for: the scene's first with a place, or else one above and beside the camera.

@@ -91,7 +91,7 @@ pub(crate) fn json(rows: &[Row]) -> Value {
                 "triangles": row.triangles,
                 "rays": row.kind.name(),
                 "engine": m.engine.name(),
-                "isa": m.engine.isa(),
+                "isa": m.isa,
                 "threads": m.threads.count(),
                 "mrays_per_second": m.median(),
                 "ratio_to_embree": row.ratio_to_embree(m.engine, m.threads),

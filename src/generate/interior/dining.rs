@@ -99,7 +99,7 @@ fn bowl_of_fruit(room: &mut Room, at: Vec3) {
             center,
             v(0.036, 0.034, 0.036),
             1.0,
-            32,
+            24,
         );
     }
 }
@@ -168,6 +168,6 @@ pub(super) fn hanging_lamp(room: &mut Room, at: Vec3, ceiling: f32) {
         at + v(0.0, 0.1, 0.0),
         v(0.03, 0.045, 0.03),
         1.0,
-        40,
+        24,
     );
 }

@@ -120,16 +120,16 @@ pub(super) fn sofa(room: &mut Room, at: Vec3) {
             at + v(0.98 * side, 0.4, 0.0),
             v(0.12, 0.25, 0.44),
             0.4,
-            48,
+            36,
         );
     }
     for k in 0..3 {
         let x = -0.58 + 0.58 * k as f32;
-        add_cushion(cloth, at + v(x, 0.35, -0.05), v(0.29, 0.1, 0.38), 0.4, 56);
-        add_cushion(cloth, at + v(x, 0.65, 0.3), v(0.29, 0.26, 0.12), 0.5, 56);
+        add_cushion(cloth, at + v(x, 0.35, -0.05), v(0.29, 0.1, 0.38), 0.4, 36);
+        add_cushion(cloth, at + v(x, 0.65, 0.3), v(0.29, 0.26, 0.12), 0.5, 36);
     }
     for (x, tilt) in [(-0.7, 0.12), (0.1, 0.16), (0.75, 0.1)] {
-        add_cushion(cloth, at + v(x, 0.58, tilt), v(0.2, 0.18, 0.07), 0.6, 56);
+        add_cushion(cloth, at + v(x, 0.58, tilt), v(0.2, 0.18, 0.07), 0.6, 36);
     }
 }
 
