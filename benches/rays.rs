@@ -1,108 +1,176 @@
-//! Closest and any hit on generated scenes, one thread, 64 rays a batch: primary rays of an 8 x 8 tile, and rays that
-//! have nothing in common.
+//! Rays a second, beside Embree's: `cargo bench --bench rays`. What it measures and how to repeat it is in
+//! `benches/README.md`.
 
-use criterion::{BenchmarkId, Criterion, Throughput};
-use glam::Vec3;
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a benchmark prints its tables"
+)]
+
+#[path = "rays/arguments.rs"]
+mod arguments;
+#[path = "rays/builds.rs"]
+mod builds;
+#[path = "rays/embree.rs"]
+mod embree;
+#[path = "rays/embree_layouts.rs"]
+mod embree_layouts;
+#[path = "rays/engines.rs"]
+mod engines;
+#[path = "rays/frames.rs"]
+mod frames;
+#[path = "rays/kernel.rs"]
+mod kernel;
+#[path = "rays/measure.rs"]
+mod measure;
+#[path = "rays/record.rs"]
+mod record;
+#[path = "rays/scenes.rs"]
+mod scenes;
+#[path = "rays/sets.rs"]
+mod sets;
+#[path = "rays/table.rs"]
+mod table;
+
+use arguments::Arguments;
+use embree::Embree;
+use engines::{Arena, Engine, Round, Threads};
 use luch::accel::{Accel, Options};
-use luch::camera::Camera;
-use luch::generate::{self, Random};
-use luch::ray::Ray;
-use luch::scene::{Scene, SceneDescription};
-use std::hint::black_box;
+use measure::{Difference, race};
+use record::Results;
+use sets::Kind;
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+use table::Row;
 
-/// The side of the square picture whose rays are traced.
-const SIDE: u32 = 256;
+/// Scenes above this are too slow for the oracle.
+const MOST_FOR_LINEAR: u32 = 100_000;
 
-fn scenes() -> Vec<(&'static str, SceneDescription)> {
-    let camera = |position| Camera::looking_at(position, Vec3::ZERO, Vec3::Y, 0.8);
-    let near = camera(Vec3::new(1.0, 1.2, 1.6));
-    vec![
-        (
-            "icosphere-82k",
-            generate::mesh_scene(generate::icosphere(6), camera(Vec3::Z * 3.0)),
-        ),
-        (
-            "terrain-131k",
-            generate::mesh_scene(generate::terrain(256, 1), near),
-        ),
-        (
-            "hair-100k",
-            generate::mesh_scene(generate::hair(5_000, 10, 2), near),
-        ),
-        (
-            "sphereflake-66k",
-            generate::sphere_scene(generate::sphereflake(5), camera(Vec3::new(2.0, 2.0, 3.0))),
-        ),
-    ]
-}
-
-fn primary_rays(scene: &Scene) -> Vec<Vec<Ray>> {
-    let view = scene.camera().view(SIDE, SIDE);
-    let tile = |left: u32, top: u32| {
-        let pixels = (0..64).map(|p| (left + p % 8, top + p / 8));
-        pixels
-            .map(|(i, j)| view.primary_ray(f64::from(i) + 0.5, f64::from(j) + 0.5))
-            .collect()
-    };
-    let corners = (0..SIDE)
-        .step_by(8)
-        .flat_map(|top| (0..SIDE).step_by(8).map(move |left| (left, top)));
-    corners.map(|(left, top)| tile(left, top)).collect()
-}
-
-fn incoherent_rays(scene: &Scene) -> Vec<Vec<Ray>> {
-    let mut random = Random::new(1);
-    let bounds = scene.bounds();
-    let (center, half) = (bounds.center(), (bounds.max - bounds.min) * 0.5);
-    let mut ray = || {
-        Ray::new(
-            center + random.in_cube() * half,
-            random.direction(),
-            0.0,
-            f32::INFINITY,
-        )
-    };
-    (0..SIDE * SIDE / 64)
-        .map(|_| (0..64).map(|_| ray()).collect())
-        .collect()
-}
-
-/// `rays/closest/...` and `rays/any/...`
-pub(crate) fn closest_and_any_hit(criterion: &mut Criterion) {
-    for (name, description) in scenes() {
-        let Ok(scene) = Scene::new(description) else {
-            continue;
-        };
-        let accel = Accel::build(&scene, &Options::default());
-        for (kind, batches) in [
-            ("primary", primary_rays(&scene)),
-            ("incoherent", incoherent_rays(&scene)),
-        ] {
-            let mut group = criterion.benchmark_group("rays");
-            group.throughput(Throughput::Elements(u64::from(SIDE * SIDE)));
-            group.bench_function(BenchmarkId::new(format!("closest/{kind}"), name), |bench| {
-                let mut hits = Vec::new();
-                bench.iter(|| {
-                    batches
-                        .iter()
-                        .for_each(|rays| accel.intersect_all(black_box(rays), &mut hits))
-                });
-            });
-            group.bench_function(BenchmarkId::new(format!("any/{kind}"), name), |bench| {
-                let mut occluded = Vec::new();
-                bench.iter(|| {
-                    batches
-                        .iter()
-                        .for_each(|rays| accel.occluded_all(black_box(rays), &mut occluded))
-                });
-            });
+fn main() -> ExitCode {
+    let arguments = Arguments::of_this_run();
+    match run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
         }
-        let mut group = criterion.benchmark_group("build");
-        group
-            .throughput(Throughput::Elements(u64::from(scene.primitive_count())))
-            .sample_size(10);
-        group.bench_function(name, |bench| {
-            bench.iter(|| Accel::build(&scene, &Options::default()))
-        });
     }
+}
+
+fn run(arguments: &Arguments) -> Result<(), String> {
+    let embree = std::env::var_os("LUCH_EMBREE").map(|file| Embree::load(Path::new(&file)));
+    let embree = embree
+        .transpose()
+        .map_err(|error| format!("LUCH_EMBREE: {error}"))?;
+    if let Some(kind) = arguments.kernel_only {
+        return kernel::run(arguments, kind, arguments.engine, embree.as_ref());
+    }
+    let mut results = Results::default();
+    if embree.is_none() {
+        results
+            .say("LUCH_EMBREE names no library: no Embree in the tables (see benches/README.md)\n");
+    }
+    results.say(table::HEADER);
+    for name in arguments.scenes() {
+        if let Err(reason) = race_in(&name, arguments, embree.as_ref(), &mut results) {
+            results.say(format!(
+                "{:<14} not loaded: {reason}",
+                scenes::short_name(&name)
+            ));
+        }
+    }
+    if !arguments.only_rays {
+        frames(arguments, &mut results)?;
+        builds(&mut results);
+    }
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/rays.json");
+    // The build's own folder may be elsewhere.
+    let folder = file.parent().map_or(Ok(()), fs::create_dir_all);
+    let written =
+        folder.and_then(|()| fs::write(&file, format!("{:#}\n", table::json(&results.rows))));
+    written.map_err(|error| format!("{}: {error}", file.display()))?;
+    match &arguments.record {
+        Some(name) => results
+            .write_record(name)
+            .map_err(|error| format!("record {name}: {error}")),
+        None => Ok(()),
+    }
+}
+
+/// The rows of one scene, and its builds, which are shown later.
+fn race_in(
+    name: &str,
+    arguments: &Arguments,
+    embree: Option<&Embree>,
+    results: &mut Results,
+) -> Result<(), String> {
+    let scene = scenes::make(name)?;
+    if !arguments.only_rays {
+        results
+            .builds
+            .extend(builds::of_scene(name, &scene, embree)?);
+    }
+    let accel = Accel::build(&scene, &Options::default());
+    let arena = Arena::new(&scene, &accel, embree)?;
+    let rounding = 1e-5 * scene.bounds().extent();
+    let sets = sets::make(&scene, &accel, scenes::light(&scene), arguments.size());
+    for (kind, set) in Kind::ALL.into_iter().zip(&sets) {
+        let round = Round::new(kind, set, arena.has_embree());
+        let few = scene.primitive_count() <= MOST_FOR_LINEAR;
+        let mut engines = Engine::ALL.to_vec();
+        engines.retain(|&engine| engine != Engine::Linear || few);
+        let mut measured = race(&arena, &round, &engines, Threads::One, arguments.rounds);
+        if !arguments.only_rays {
+            engines.retain(|&engine| engine != Engine::Linear);
+            measured.extend(race(
+                &arena,
+                &round,
+                &engines,
+                Threads::All,
+                arguments.rounds,
+            ));
+        }
+        let ours = arena.answers(Engine::Luch, &round);
+        let theirs = arena.answers(Engine::EmbreeRobust, &round);
+        let row = Row {
+            scene: scenes::short_name(name),
+            triangles: scene.primitive_count(),
+            kind,
+            measured,
+            difference: ours
+                .zip(theirs)
+                .map(|(ours, theirs)| Difference::between(&ours, &theirs, rounding)),
+            from_oracle: few.then(|| against_oracle(&arena, &round, kind)),
+        };
+        results.say(row.line());
+        results.rows.push(row);
+    }
+    Ok(())
+}
+
+/// Luch against the oracle on the oracle's few rays.
+fn against_oracle(arena: &Arena, round: &Round, kind: Kind) -> Difference {
+    let few = sets::RaySet::in_batches(round.few());
+    let round = Round::new(kind, &few, false);
+    let of = |engine| arena.answers(engine, &round).unwrap_or_default();
+    Difference::between(&of(Engine::Luch), &of(Engine::Linear), 0.0)
+}
+
+/// Whole frames, where the interior was among the scenes.
+fn frames(arguments: &Arguments, results: &mut Results) -> Result<(), String> {
+    if results.rows.iter().all(|row| row.scene != "interior") {
+        return Ok(());
+    }
+    results.frames = frames::of_interior(arguments)?;
+    results.say(format!("\n{}", frames::HEADER));
+    let lines: Vec<String> = results.frames.iter().map(frames::line).collect();
+    lines.into_iter().for_each(|line| results.say(line));
+    Ok(())
+}
+
+fn builds(results: &mut Results) {
+    results.say(format!("\n{}", builds::HEADER));
+    let lines: Vec<String> = results.builds.iter().map(builds::line).collect();
+    lines.into_iter().for_each(|line| results.say(line));
 }

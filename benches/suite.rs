@@ -1,13 +1,8 @@
-//! Every benchmark, in one program: `cargo bench`, or `cargo bench -- rays/` for those of one file.
+//! Every benchmark but that of rays, in one program: `cargo bench --bench suite`, or `cargo bench -- frame/` for those
+//! of one file.
 
 mod frame;
 mod load;
-mod rays;
 
-criterion::criterion_group!(
-    benches,
-    rays::closest_and_any_hit,
-    frame::whole_frames,
-    load::files
-);
+criterion::criterion_group!(benches, frame::whole_frames, load::files);
 criterion::criterion_main!(benches);

@@ -3,6 +3,7 @@
 mod grid;
 mod hair;
 mod icosphere;
+mod interior;
 mod knot;
 mod random;
 mod sphereflake;
@@ -11,6 +12,7 @@ mod terrain;
 pub use grid::grid;
 pub use hair::hair;
 pub use icosphere::icosphere;
+pub use interior::{Decoration, interior};
 pub use knot::knot;
 pub use random::Random;
 pub use sphereflake::sphereflake;

@@ -1,0 +1,327 @@
+//! Who answers: luch, its oracle, and Embree in three ways.
+
+use super::embree::{Build, Embree, EmbreeScene, Nearest, Quality};
+use super::embree_layouts::{RtcRay, RtcRay16};
+use super::scenes;
+use super::sets::{Kind, RaySet};
+use luch::accel::{Accel, linear};
+use luch::geometry::Hit;
+use luch::ray::Ray;
+use luch::scene::Scene;
+use rayon::prelude::*;
+use std::hint::black_box;
+use std::time::Instant;
+
+/// An engine of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Engine {
+    /// `Accel::intersect_all` and `occluded_all`, a tile at a time.
+    Luch,
+    /// `rtcIntersect1` and `rtcOccluded1`, medium quality, default flags: not watertight.
+    Embree,
+    /// The same with the robust flag: watertight, as luch is.
+    EmbreeRobust,
+    /// `rtcIntersect16` and `rtcOccluded16` with the coherent flag, 16 rays after another.
+    Embree16,
+    /// `luch::accel::linear`: every primitive in order.
+    Linear,
+}
+
+impl Engine {
+    pub(crate) const ALL: [Engine; 5] = [
+        Engine::Luch,
+        Engine::Embree,
+        Engine::EmbreeRobust,
+        Engine::Embree16,
+        Engine::Linear,
+    ];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Engine::Luch => "luch",
+            Engine::Embree => "embree",
+            Engine::EmbreeRobust => "embree-robust",
+            Engine::Embree16 => "embree16",
+            Engine::Linear => "linear",
+        }
+    }
+
+    /// The one that a kind's ratio is to: rays from surfaces are only fairly held against watertight ones.
+    pub(crate) fn rival(kind: Kind) -> Engine {
+        match kind {
+            Kind::Primary | Kind::Shadow => Engine::Embree,
+            Kind::Mirror | Kind::Incoherent => Engine::EmbreeRobust,
+        }
+    }
+}
+
+/// The instruction set of luch's kernels.
+fn luch_isa() -> String {
+    "scalar".into()
+}
+
+/// How many threads trace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Threads {
+    One,
+    All,
+}
+
+impl Threads {
+    pub(crate) fn count(self) -> usize {
+        match self {
+            Threads::One => 1,
+            Threads::All => rayon::current_num_threads(),
+        }
+    }
+}
+
+/// What was found on a ray; for shadow rays only whether anything was.
+pub(crate) type Answer = Nearest;
+
+/// The built scenes.
+pub(crate) struct Arena<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) accel: &'a Accel,
+    plain: Option<EmbreeScene<'a>>,
+    robust: Option<EmbreeScene<'a>>,
+}
+
+/// A set of rays in the form of every engine, made before any time is taken.
+pub(crate) struct Round<'a> {
+    kind: Kind,
+    batches: Vec<&'a [Ray]>,
+    singles: Vec<RtcRay>,
+    sixteens: Vec<RtcRay16>,
+    /// Some rays for the oracle.
+    few: Vec<Ray>,
+}
+
+/// How many rays the oracle gets.
+const FEW: usize = 200;
+
+impl<'a> Round<'a> {
+    pub(crate) fn new(kind: Kind, set: &'a RaySet, with_embree: bool) -> Round<'a> {
+        let rays = if with_embree { &set.rays[..] } else { &[] };
+        let step = (set.rays.len() / FEW).max(1);
+        Round {
+            kind,
+            batches: set.batches(),
+            singles: rays.iter().map(RtcRay::of).collect(),
+            sixteens: rays.chunks(16).map(RtcRay16::of).collect(),
+            few: set.rays.iter().copied().step_by(step).take(FEW).collect(),
+        }
+    }
+
+    /// How many rays an engine traces.
+    pub(crate) fn rays(&self, engine: Engine) -> usize {
+        match engine {
+            Engine::Linear => self.few.len(),
+            _ => self.batches.iter().map(|batch| batch.len()).sum(),
+        }
+    }
+
+    /// The rays of the oracle.
+    pub(crate) fn few(&self) -> &[Ray] {
+        &self.few
+    }
+}
+
+impl<'a> Arena<'a> {
+    pub(crate) fn new(
+        scene: &'a Scene,
+        accel: &'a Accel,
+        embree: Option<&'a Embree>,
+    ) -> Result<Arena<'a>, String> {
+        let triangles = embree.and_then(|embree| Some((embree, scenes::triangles(scene)?)));
+        let build = |robust| {
+            let Some((embree, (positions, triangles))) = &triangles else {
+                return Ok(None);
+            };
+            let threads = rayon::current_num_threads();
+            let quality = Quality::Medium;
+            embree
+                .build(
+                    positions,
+                    triangles,
+                    Build {
+                        quality,
+                        robust,
+                        threads,
+                    },
+                )
+                .map(Some)
+        };
+        Ok(Arena {
+            scene,
+            accel,
+            plain: build(false)?,
+            robust: build(true)?,
+        })
+    }
+
+    /// Which instructions an engine uses.
+    pub(crate) fn isa(&self, engine: Engine) -> String {
+        match engine {
+            Engine::Luch => luch_isa(),
+            Engine::Linear => "scalar".into(),
+            _ => self.embree(engine).map_or("none", EmbreeScene::isa).into(),
+        }
+    }
+
+    pub(crate) fn has_embree(&self) -> bool {
+        self.plain.is_some()
+    }
+
+    /// Seconds for every ray of a round.
+    pub(crate) fn seconds(&self, engine: Engine, round: &Round, threads: Threads) -> Option<f64> {
+        let start = Instant::now();
+        self.trace(engine, round, threads)?;
+        Some(start.elapsed().as_secs_f64())
+    }
+
+    fn trace(&self, engine: Engine, round: &Round, threads: Threads) -> Option<()> {
+        /// Calls `trace` with pieces of the work, on one thread or on all.
+        fn share<T: Sync>(
+            work: &[T],
+            piece: usize,
+            threads: Threads,
+            trace: impl Fn(&[T]) + Sync + Send,
+        ) {
+            match threads {
+                Threads::One => trace(work),
+                Threads::All => work.par_chunks(piece).for_each(trace),
+            }
+        }
+        let any = round.kind.is_any_hit();
+        match engine {
+            Engine::Luch => share(&round.batches, 64, threads, |batches| {
+                if any {
+                    luch_any(self.accel, batches);
+                } else {
+                    luch_nearest(self.accel, batches);
+                }
+            }),
+            Engine::Linear => share(&round.few, 8, threads, |rays| {
+                rays.iter().for_each(|ray| {
+                    black_box(oracle(self.scene, ray, any));
+                })
+            }),
+            Engine::Embree | Engine::EmbreeRobust => {
+                let scene = self.embree(engine)?;
+                share(&round.singles, 4096, threads, |rays| {
+                    if any {
+                        rays.iter()
+                            .for_each(|ray| drop(black_box(scene.occluded(ray))));
+                    } else {
+                        rays.iter()
+                            .for_each(|ray| drop(black_box(scene.intersect(ray))));
+                    }
+                });
+            }
+            Engine::Embree16 => {
+                let scene = self.embree(engine)?;
+                share(&round.sixteens, 256, threads, |rays| {
+                    if any {
+                        rays.iter()
+                            .for_each(|ray| drop(black_box(scene.occluded16(ray))));
+                    } else {
+                        rays.iter()
+                            .for_each(|ray| drop(black_box(scene.intersect16(ray))));
+                    }
+                });
+            }
+        }
+        Some(())
+    }
+
+    fn embree(&self, engine: Engine) -> Option<&EmbreeScene<'a>> {
+        match engine {
+            Engine::EmbreeRobust => self.robust.as_ref(),
+            _ => self.plain.as_ref(),
+        }
+    }
+
+    /// What an engine finds on every ray of a round; of the oracle, on its few.
+    pub(crate) fn answers(&self, engine: Engine, round: &Round) -> Option<Vec<Answer>> {
+        let any = round.kind.is_any_hit();
+        let flag = |hit: bool| hit.then_some((0.0, 0));
+        let answers = match engine {
+            Engine::Luch => {
+                let (mut hits, mut occluded) = (Vec::new(), Vec::new());
+                let mut answers = Vec::with_capacity(round.rays(engine));
+                for batch in &round.batches {
+                    if any {
+                        self.accel.occluded_all(batch, &mut occluded);
+                        answers.extend(occluded.iter().map(|&hit| flag(hit)));
+                    } else {
+                        self.accel.intersect_all(batch, &mut hits);
+                        answers.extend(hits.iter().map(answer));
+                    }
+                }
+                answers
+            }
+            Engine::Linear => round
+                .few
+                .par_iter()
+                .map(|ray| oracle(self.scene, ray, any))
+                .collect(),
+            Engine::Embree | Engine::EmbreeRobust => {
+                let scene = self.embree(engine)?;
+                let one = |ray| {
+                    if any {
+                        flag(scene.occluded(ray))
+                    } else {
+                        scene.intersect(ray)
+                    }
+                };
+                round.singles.iter().map(one).collect()
+            }
+            Engine::Embree16 => {
+                let scene = self.embree(engine)?;
+                let sixteen = |rays| {
+                    if any {
+                        scene.occluded16(rays).map(flag)
+                    } else {
+                        scene.intersect16(rays)
+                    }
+                };
+                let lanes = round.sixteens.iter().flat_map(sixteen);
+                lanes.take(round.rays(engine)).collect()
+            }
+        };
+        Some(answers)
+    }
+}
+
+/// Apart from `luch_any` and never inlined, so that a profiler can be told to count nothing else.
+#[inline(never)]
+pub(crate) fn luch_nearest(accel: &Accel, batches: &[&[Ray]]) {
+    let mut hits = Vec::new();
+    for batch in batches {
+        accel.intersect_all(batch, &mut hits);
+        black_box(&hits);
+    }
+}
+
+/// See `luch_nearest`.
+#[inline(never)]
+pub(crate) fn luch_any(accel: &Accel, batches: &[&[Ray]]) {
+    let mut occluded = Vec::new();
+    for batch in batches {
+        accel.occluded_all(batch, &mut occluded);
+        black_box(&occluded);
+    }
+}
+
+fn oracle(scene: &Scene, ray: &Ray, any: bool) -> Answer {
+    if any {
+        linear::occluded(scene, ray).then_some((0.0, 0))
+    } else {
+        answer(&linear::intersect(scene, ray))
+    }
+}
+
+fn answer(hit: &Option<Hit>) -> Answer {
+    hit.map(|hit| (hit.t, hit.primitive))
+}
