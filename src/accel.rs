@@ -3,6 +3,7 @@
 //! Two questions, for one ray and for a batch: [`Accel::intersect`] and [`Accel::occluded`]. The answers are those of
 //! [`linear`], which tries every primitive in order, bit for bit.
 
+mod build;
 mod bvh;
 pub mod linear;
 mod primitive;
@@ -25,6 +26,18 @@ pub struct Options {
     pub preset: Preset,
     /// The most primitives a leaf may have; the preset's own choice where it is `None`.
     pub leaf_size: Option<NonZeroU8>,
+    /// How the tree lies in memory.
+    pub layout: Layout,
+}
+
+/// How a tree lies in memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layout {
+    /// Primitives in blocks of eight.
+    #[default]
+    Wide,
+    /// Primitives in blocks of four, which fill better.
+    Small,
 }
 
 /// How much time the build takes for how good a tree: obvhs's presets.

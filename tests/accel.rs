@@ -37,7 +37,14 @@ fn assert_equals_oracle(name: &str, scene: &Scene, rays: &[Ray]) {
         .collect();
     for preset in presets {
         for leaf_size in leaf_sizes {
-            let accel = Accel::build(scene, &Options { preset, leaf_size });
+            let accel = Accel::build(
+                scene,
+                &Options {
+                    preset,
+                    leaf_size,
+                    ..Options::default()
+                },
+            );
             let (mut hits, mut occluded) = (Vec::new(), Vec::new());
             accel.intersect_all(rays, &mut hits);
             accel.occluded_all(rays, &mut occluded);
@@ -208,6 +215,7 @@ fn statistics_count_what_was_built() {
     let one_each = Options {
         preset: Preset::Medium,
         leaf_size: std::num::NonZeroU8::new(1),
+        ..Options::default()
     };
     let accel = Accel::build(&scene, &one_each);
     let statistics = accel.statistics();

@@ -107,6 +107,7 @@ fn threads_tiles_and_trees_change_no_bit() {
         let options = Options {
             preset,
             leaf_size: std::num::NonZeroU8::new(7),
+            ..Options::default()
         };
         assert_eq!(
             bits(&picture(&scene, &options, &settings())),

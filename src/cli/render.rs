@@ -150,6 +150,7 @@ fn accel_options(arguments: &RenderArguments) -> accel::Options {
     accel::Options {
         preset: arguments.bvh.into(),
         leaf_size: arguments.leaf_size,
+        ..accel::Options::default()
     }
 }
 
