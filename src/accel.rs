@@ -4,7 +4,7 @@
 //! [`linear`], which tries every primitive in order, bit for bit. A batch is faster the more its rays go the same way: the
 //! camera's through a tile of pixels, those from one light.
 
-mod bvh;
+mod build;
 #[expect(unsafe_code, reason = "registers; every block says why it is sound")]
 mod kernel;
 pub mod linear;
@@ -33,6 +33,8 @@ pub struct Options {
     pub preset: Preset,
     /// The most primitives a leaf may have; the preset's own choice where it is `None`.
     pub leaf_size: Option<NonZeroU8>,
+    /// How leaves lie in memory.
+    pub layout: Layout,
     /// The kernels that search.
     pub isa: Isa,
     /// Whether rays of a batch that go the same way are searched for together.
@@ -44,6 +46,7 @@ impl Default for Options {
         Options {
             preset: Preset::default(),
             leaf_size: None,
+            layout: Layout::default(),
             isa: Isa::detect(),
             packets: true,
         }
@@ -66,6 +69,16 @@ pub enum Preset {
     Slow,
     /// For many pictures of one scene.
     VerySlow,
+}
+
+/// How leaves lie in memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layout {
+    /// Triangles in blocks of eight, each tested at once.
+    #[default]
+    Wide,
+    /// Triangles in blocks of four: less room that is not used, and a little slower.
+    Small,
 }
 
 /// A scene's primitives, ready to be searched.
@@ -138,8 +151,16 @@ impl Accel {
             .collect();
         let shared = |instance: &&PlacedInstance| instance.space.is_some();
         let meshes = (0..scene.meshes().len() as u32).map(|mesh| {
-            let is_shared = scene.instances().iter().filter(shared).any(|i| i.mesh == mesh);
-            if is_shared { mesh_tree(scene, mesh, options) } else { Tree::default() }
+            let is_shared = scene
+                .instances()
+                .iter()
+                .filter(shared)
+                .any(|i| i.mesh == mesh);
+            if is_shared {
+                mesh_tree(scene, mesh, options)
+            } else {
+                Tree::default()
+            }
         });
         let mut accel = Accel {
             planes,
@@ -217,11 +238,14 @@ impl Accel {
 
     fn search_any(&self, rays: &[Ray], scratch: &mut Scratch) {
         let plane = |ray: &Ray| {
-            let met = |p: &NumberedPlane| p.opaque && primitive::plane(&p.plane, ray, p.number).is_some();
+            let met =
+                |p: &NumberedPlane| p.opaque && primitive::plane(&p.plane, ray, p.number).is_some();
             self.planes.iter().any(met)
         };
         scratch.best.clear();
-        scratch.best.extend(rays.iter().map(|ray| Best::new(ray.t_max)));
+        scratch
+            .best
+            .extend(rays.iter().map(|ray| Best::new(ray.t_max)));
         scratch.occluded.clear();
         scratch.occluded.extend(rays.iter().map(plane));
         kernel::occluded(self, rays, scratch);
@@ -249,7 +273,7 @@ fn mesh_tree(scene: &Scene, mesh: u32, options: &Options) -> Tree {
         .into_par_iter()
         .map(|index| mesh.triangle(index).bounds())
         .collect();
-    let topology = bvh::build(&bounds, |_| Kind::Triangles, options);
+    let topology = build::build(&bounds, |_| Kind::Triangles, options);
     Tree::new(topology, mesh.bounds().extent(), |index| {
         Item::Triangle(mesh.triangle(index), Number::new(index, true))
     })
@@ -286,8 +310,12 @@ fn world_tree(scene: &Scene, options: &Options) -> Tree {
             Kind::Triangles
         }
     };
-    let extent = bounds.iter().copied().fold(Bounds::EMPTY, Bounds::union).extent();
-    let topology = bvh::build(&bounds, kind, options);
+    let extent = bounds
+        .iter()
+        .copied()
+        .fold(Bounds::EMPTY, Bounds::union)
+        .extent();
+    let topology = build::build(&bounds, kind, options);
     Tree::new(topology, extent, |item| {
         if item < spheres {
             let sphere = &scene.spheres()[item as usize];

@@ -49,6 +49,7 @@ fn assert_equals_oracle(name: &str, scene: &Scene, rays: &[Ray]) {
                     leaf_size,
                     isa,
                     packets,
+                    ..Options::default()
                 };
                 let accel = Accel::build(scene, &options);
                 let (mut hits, mut occluded) = (Vec::new(), Vec::new());

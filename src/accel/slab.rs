@@ -31,10 +31,7 @@ impl Slab {
         Slab {
             low: ray.origin - pad,
             high: ray.origin + pad,
-            inverse: ray
-                .direction
-                .recip()
-                .clamp(Vec3::MIN, Vec3::MAX),
+            inverse: ray.direction.recip().clamp(Vec3::MIN, Vec3::MAX),
         }
     }
 

@@ -13,8 +13,16 @@ pub(super) fn interval<F: Float<N>, const N: usize>(
     far: [F; 3],
     inverse: [F; 3],
 ) -> (F, F) {
-    let enter = [near[0] * inverse[0], near[1] * inverse[1], near[2] * inverse[2]];
-    let leave = [far[0] * inverse[0], far[1] * inverse[1], far[2] * inverse[2]];
+    let enter = [
+        near[0] * inverse[0],
+        near[1] * inverse[1],
+        near[2] * inverse[2],
+    ];
+    let leave = [
+        far[0] * inverse[0],
+        far[1] * inverse[1],
+        far[2] * inverse[2],
+    ];
     (
         enter[0].max(enter[1]).max(enter[2]),
         leave[0].min(leave[1]).min(leave[2]),

@@ -252,7 +252,11 @@ impl Packet {
 
     #[inline(always)]
     fn three<F: Float<16>>(rows: &[Row; 3], group: usize) -> [F; 3] {
-        [rows[0].group(group), rows[1].group(group), rows[2].group(group)]
+        [
+            rows[0].group(group),
+            rows[1].group(group),
+            rows[2].group(group),
+        ]
     }
 
     /// Which of the rays in `live` meet the box of a node's child, before their ends.
@@ -293,8 +297,7 @@ impl Packet {
     ) -> bool {
         let [a, b, c] = &block.vertices;
         let corners = box_of::<M::F8, 8>([rows(a), rows(b), rows(c)]);
-        let (_, mut reached) =
-            all.meets(pick(&corners, self.near), pick(&corners, self.far), end);
+        let (_, mut reached) = all.meets(pick(&corners, self.near), pick(&corners, self.far), end);
         let mut any = false;
         let [x, y, z] = self.axes;
         while reached != 0 {

@@ -305,7 +305,8 @@ fn triangles<M: Machine, Q: Question>(
         let lane = first(hit) & 7;
         hit &= hit - 1;
         let number = block.numbers[lane];
-        if (Q::ANY && !number.is_opaque()) || !probe.ray.admits(t[lane], first_number + number.get())
+        if (Q::ANY && !number.is_opaque())
+            || !probe.ray.admits(t[lane], first_number + number.get())
         {
             continue;
         }

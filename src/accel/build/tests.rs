@@ -1,0 +1,185 @@
+use super::build;
+use crate::accel::wide::{Kind, Node, Reference, Topology};
+use crate::accel::{Layout, Options, Preset};
+use crate::generate::Random;
+use crate::geometry::Bounds;
+use glam::Vec3;
+use std::num::NonZeroU8;
+
+const PRESETS: [Preset; 6] = [
+    Preset::Fastest,
+    Preset::VeryFast,
+    Preset::Fast,
+    Preset::Medium,
+    Preset::Slow,
+    Preset::VerySlow,
+];
+
+fn with(preset: Preset) -> Options {
+    Options {
+        preset,
+        ..Options::default()
+    }
+}
+
+fn boxed(node: &Node, slot: usize) -> Bounds {
+    let corner = |planes: &[[f32; 8]; 3]| Vec3::from(planes.map(|plane| plane[slot]));
+    Bounds {
+        min: corner(&node.corners[0]),
+        max: corner(&node.corners[1]),
+    }
+}
+
+fn children(node: &Node) -> impl Iterator<Item = (usize, Reference)> + '_ {
+    let count = node
+        .children
+        .iter()
+        .take_while(|&&child| child != Reference::NONE)
+        .count();
+    assert!(node.children[count..].iter().all(|&c| c == Reference::NONE));
+    (0..count).map(|slot| (slot, node.children[slot]))
+}
+
+/// Asserts what every tree keeps: each item once, in a leaf of its kind; the tightest boxes; parents first.
+fn check(topology: &Topology, bounds: &[Bounds], kind: impl Fn(u32) -> Kind, leaf_size: u32) {
+    let mut seen = vec![false; bounds.len()];
+    for &item in &topology.order {
+        assert!(!std::mem::replace(&mut seen[item as usize], true), "twice");
+    }
+    assert!(seen.iter().all(|&seen| seen), "an item is missing");
+    let (mut next_leaf, mut next_item) = (0, 0);
+    let mut depth = vec![1; topology.nodes.len()];
+    for (index, node) in topology.nodes.iter().enumerate() {
+        for (slot, child) in children(node) {
+            let inside = boxed(node, slot);
+            if child.kind() == Kind::Node {
+                assert!(child.index() > index, "a child before its parent");
+                depth[child.index()] = depth[index] + 1;
+                let of_child = &topology.nodes[child.index()];
+                let exact = children(of_child)
+                    .fold(Bounds::EMPTY, |b, (slot, _)| b.union(boxed(of_child, slot)));
+                assert_eq!(inside, exact);
+            } else {
+                assert_eq!(child.index(), next_leaf, "leaves out of order");
+                let leaf = topology.leaves[next_leaf];
+                assert_eq!(leaf.first, next_item, "a gap between leaves");
+                (next_leaf, next_item) = (next_leaf + 1, leaf.first + leaf.count);
+                let most = match child.kind() {
+                    Kind::Instances => 1,
+                    _ => leaf_size,
+                };
+                assert!((1..=most).contains(&leaf.count), "{} items", leaf.count);
+                let items = &topology.order[leaf.first as usize..next_item as usize];
+                assert!(items.iter().all(|&item| kind(item) == child.kind()));
+                let exact = items
+                    .iter()
+                    .fold(Bounds::EMPTY, |b, &item| b.union(bounds[item as usize]));
+                assert_eq!(inside, exact);
+            }
+        }
+    }
+    assert_eq!(next_leaf, topology.leaves.len());
+    assert_eq!(topology.depth, depth.iter().copied().max().unwrap_or(0));
+    assert!(topology.sah_cost.is_finite());
+}
+
+fn triangles(_: u32) -> Kind {
+    Kind::Triangles
+}
+
+/// Boxes of many sizes all over a cube.
+fn random_boxes(count: usize) -> Vec<Bounds> {
+    let mut random = Random::new(11);
+    (0..count)
+        .map(|_| {
+            let center = random.in_cube();
+            let size = (random.in_cube() * random.next_f32() * 0.2).abs();
+            Bounds {
+                min: center - size,
+                max: center + size,
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn nothing_makes_an_empty_tree() {
+    let topology = build(&[], triangles, &Options::default());
+    assert!(topology.nodes.is_empty() && topology.leaves.is_empty());
+}
+
+#[test]
+fn one_item_hangs_below_a_root() {
+    for kind in [Kind::Triangles, Kind::Spheres, Kind::Instances] {
+        let bounds = random_boxes(1);
+        let topology = build(&bounds, |_| kind, &Options::default());
+        assert_eq!(topology.nodes.len(), 1);
+        assert_eq!(topology.nodes[0].children[0], Reference::new(kind, 0));
+        check(&topology, &bounds, |_| kind, 8);
+    }
+}
+
+#[test]
+fn eight_pairs_far_apart_are_eight_leaves_of_one_node() {
+    let bounds: Vec<Bounds> = (0..16)
+        .map(|i| {
+            let side = |bit: usize| (i / 2 >> bit & 1) as f32 * 100.0;
+            let at = Vec3::new(side(0), side(1), side(2)) + (i % 2) as f32;
+            Bounds::around([at, at + 1.0])
+        })
+        .collect();
+    for preset in PRESETS {
+        let topology = build(&bounds, triangles, &with(preset));
+        assert_eq!(topology.nodes.len(), 1, "{preset:?}");
+        assert!(topology.leaves.iter().all(|leaf| leaf.count == 2));
+        check(&topology, &bounds, triangles, 8);
+    }
+}
+
+#[test]
+fn every_tree_holds_every_item_once() {
+    let bounds = random_boxes(3000);
+    let mixed = |item: u32| match item % 7 {
+        0 => Kind::Instances,
+        1 | 2 => Kind::Spheres,
+        _ => Kind::Triangles,
+    };
+    for preset in PRESETS {
+        for (layout, leaf_size) in [(Layout::Wide, 8), (Layout::Small, 8), (Layout::Wide, 16)] {
+            let options = Options {
+                preset,
+                layout,
+                leaf_size: NonZeroU8::new(leaf_size),
+                ..Options::default()
+            };
+            let topology = build(&bounds, triangles, &options);
+            check(&topology, &bounds, triangles, u32::from(leaf_size));
+            check(
+                &build(&bounds, mixed, &options),
+                &bounds,
+                mixed,
+                u32::from(leaf_size),
+            );
+        }
+        let one = Options {
+            leaf_size: NonZeroU8::new(1),
+            ..with(preset)
+        };
+        check(&build(&bounds, triangles, &one), &bounds, triangles, 1);
+    }
+}
+
+#[test]
+fn any_number_of_threads_makes_the_same_tree() {
+    let bounds = random_boxes(20_000);
+    let built = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let topology = pool
+            .expect("threads")
+            .install(|| build(&bounds, triangles, &Options::default()));
+        (topology.order, topology.leaves, topology.nodes.len())
+    };
+    let alone = built(1);
+    assert_eq!(built(2), alone);
+    assert_eq!(built(5), alone);
+}
