@@ -1,6 +1,6 @@
 //! The finished tree: what a plan says, with the exact boxes.
 
-use super::binary::Tree;
+use super::binary;
 use super::collapse::Plan;
 use crate::accel::wide::{Kind, Leaf, Node, Reference, Topology};
 use crate::geometry::Bounds;
@@ -21,7 +21,7 @@ struct Open {
 
 /// Everything the plan keeps of `tree`, a child soon after its parent.
 pub(super) fn topology(
-    tree: &Tree,
+    tree: &[binary::Node],
     plan: &Plan,
     bounds: &[Bounds],
     kind: &(impl Fn(u32) -> Kind + Sync),
@@ -57,7 +57,7 @@ pub(super) fn topology(
 }
 
 struct Writer<'a, F> {
-    tree: &'a Tree,
+    tree: &'a [binary::Node],
     plan: &'a Plan,
     bounds: &'a [Bounds],
     kind: &'a F,
@@ -109,11 +109,11 @@ impl<F: Fn(u32) -> Kind> Writer<'_, F> {
         let first = part.order.len();
         let (mut open, mut around) = (vec![from], Bounds::EMPTY);
         while let Some(node) = open.pop() {
-            if let Some(item) = self.tree.item(node) {
+            if let Some(item) = self.tree[node as usize].item() {
                 part.order.push(item);
                 around = around.union(self.bounds[item as usize]);
             } else {
-                let child = self.tree.first_child(node);
+                let child = self.tree[node as usize].first_child();
                 open.extend([child + 1, child]);
             }
         }

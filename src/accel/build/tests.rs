@@ -182,3 +182,82 @@ fn any_number_of_threads_makes_the_same_tree() {
     assert_eq!(built(2), alone);
     assert_eq!(built(5), alone);
 }
+
+/// Boxes that once took long, or that make deep trees: each in time and depth like any others.
+fn odd(name: &str, count: usize) -> Vec<Bounds> {
+    let cube = |center: Vec3, half: f32| Bounds {
+        min: center - half,
+        max: center + half,
+    };
+    (0..count)
+        .map(|i| {
+            let x = i as f32 / count as f32;
+            match name {
+                "identical" => cube(Vec3::ONE, 0.5),
+                "nested" => cube(Vec3::ZERO, 1.0 + i as f32),
+                "nested in a corner" => Bounds::around([Vec3::ZERO, Vec3::splat(1.0 + i as f32)]),
+                "ever smaller" => cube(Vec3::X * (1.0 - x), 1e-3 * (1.0 - x)),
+                "geometric" => {
+                    let size = libm::exp2f(-(i as f32) * 140.0 / count as f32);
+                    cube(Vec3::X * size, size * 0.25)
+                }
+                "halved each time" => {
+                    let size = libm::exp2f(-(i as f32));
+                    cube(Vec3::X * size, size * 0.25)
+                }
+                "fan" => {
+                    let rim = |x: f32| {
+                        let turn = x * std::f32::consts::TAU;
+                        Vec3::new(libm::cosf(turn), libm::sinf(turn), 0.0)
+                    };
+                    Bounds::around([Vec3::ZERO, rim(x), rim((i + 1) as f32 / count as f32)])
+                }
+                "two fans" => {
+                    let rim = |x: f32| {
+                        let turn = x * std::f32::consts::TAU;
+                        Vec3::new(libm::cosf(turn), libm::sinf(turn), 0.0)
+                    };
+                    let tip = Vec3::Z * (i % 2) as f32 * 1e-3;
+                    let (from, to) = (i / 2 * 2, i / 2 * 2 + 2);
+                    let at = |i: usize| rim(i as f32 / count as f32);
+                    Bounds::around([tip, at(from), at(to)])
+                }
+                "flat" => cube(Vec3::new(x, libm::sinf(x * 100.0), 0.0), 0.0),
+                "one point" => cube(Vec3::ONE, 0.0),
+                "small and great" => cube(Vec3::X * x, if i % 2 == 0 { 1e-6 } else { 1e6 }),
+                _ => cube(Vec3::new(x, x * x, 1.0) * 1e15, 1e10),
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn odd_boxes_are_built_like_any_others() {
+    let names = [
+        "identical",
+        "nested",
+        "nested in a corner",
+        "ever smaller",
+        "geometric",
+        "halved each time",
+        "fan",
+        "two fans",
+        "flat",
+        "one point",
+        "small and great",
+        "far",
+    ];
+    for name in names {
+        let bounds = odd(name, 20_000);
+        for preset in [Preset::Fastest, Preset::Medium] {
+            let topology = build(&bounds, triangles, &with(preset));
+            check(&topology, &bounds, triangles, 8);
+            assert!(topology.depth <= 200, "{name}: {}", topology.depth);
+            assert!(
+                topology.nodes.len() * 3 <= bounds.len(),
+                "{name}: {}",
+                topology.nodes.len()
+            );
+        }
+    }
+}
