@@ -83,7 +83,7 @@ impl Effort {
             Preset::Fastest => (Trees::Clustered, 1, 0, 0.0, 0),
             Preset::VeryFast => (Trees::Clustered, 2, 2, 0.01, 4),
             Preset::Fast => (Trees::Binned, 0, 0, 0.01, 4),
-            Preset::Medium => (Trees::Both, 14, 3, 0.04, 8),
+            Preset::Medium => (Trees::Both, 14, 3, 0.03, 8),
             Preset::Slow => (Trees::Both, 24, 2, 0.2, 16),
             Preset::VerySlow => (Trees::Both, 32, 1, 1.0, 16),
         };

@@ -5,9 +5,6 @@ use super::binary::Node;
 use glam::Vec3A;
 use rayon::prelude::*;
 
-/// Bins along an axis.
-const BINS: usize = 32;
-
 /// Below this level items are halved, so that no input makes a deep tree or takes long.
 const DEEP: u32 = 64;
 
@@ -158,9 +155,12 @@ fn middle(items: &mut [Node], extent: &Extent, level: u32) -> usize {
         items.select_nth_unstable_by(half, |a, b| center(a).total_cmp(&center(b)));
         return half;
     }
-    let grid = Grid::new(extent, items.len());
-    let (axis, bin) = Bins::of(items, &grid).best_cut(grid.count);
-    let middle = partition(items, |item| grid.bins(item)[axis] < bin);
+    // Few items need few bins, and most nodes have few items.
+    let middle = match items.len() {
+        ..8 => cut::<8>(items, extent),
+        8..64 => cut::<16>(items, extent),
+        _ => cut::<32>(items, extent),
+    };
     // Never so: the first and the last bin have an item each. But never is a long time.
     if middle == 0 || middle == items.len() {
         half
@@ -169,36 +169,47 @@ fn middle(items: &mut [Node], extent: &Extent, level: u32) -> usize {
     }
 }
 
-/// Which bins a box falls into.
-struct Grid {
-    origin: [f32; 3],
-    scale: [f32; 3],
-    count: usize,
+/// Moves the items left of the best cut between `N` bins to the front; returns how many they are.
+fn cut<const N: usize>(items: &mut [Node], extent: &Extent) -> usize {
+    let grid = Grid::<N>::new(extent);
+    let (axis, bin) = Bins::of(items, &grid).best_cut();
+    partition(items, |item| grid.bins(item)[axis] < bin as u32)
 }
 
-impl Grid {
-    fn new(extent: &Extent, items: usize) -> Grid {
-        let count = if items < 64 { BINS / 2 } else { BINS };
-        let size = (extent.most - extent.least).to_array();
+/// Which bins a box falls into.
+struct Grid<const N: usize> {
+    origin: Vec3A,
+    scale: Vec3A,
+}
+
+impl<const N: usize> Grid<N> {
+    fn new(extent: &Extent) -> Grid<N> {
+        let size = extent.most - extent.least;
+        let scale = size.to_array().map(|size| {
+            if size > 0.0 {
+                // Finite, or the first center's bin would be no number.
+                (N as f32 / size).min(f32::MAX)
+            } else {
+                0.0
+            }
+        });
         Grid {
-            origin: extent.least.to_array(),
-            scale: size.map(|size| if size > 0.0 { count as f32 / size } else { 0.0 }),
-            count,
+            origin: extent.least,
+            scale: scale.into(),
         }
     }
 
-    fn bins(&self, item: &Node) -> [usize; 3] {
-        let center = (item.min() + item.max()).to_array();
-        // Not a number where a tiny size made the scale infinite: bin 0.
-        std::array::from_fn(|axis| {
-            let bin = (center[axis] - self.origin[axis]) * self.scale[axis];
-            (bin as i32).min(self.count as i32 - 1) as usize & (BINS - 1)
-        })
+    fn bins(&self, item: &Node) -> [u32; 3] {
+        // From here on up the numbers of 32 bits are whole: their last bits are the number.
+        const WHOLE: f32 = (1 << 23) as f32;
+        let along = (item.min() + item.max() - self.origin) * self.scale - 0.5;
+        let bin = along.max(Vec3A::ZERO).min(Vec3A::splat((N - 1) as f32)) + WHOLE;
+        bin.to_array().map(|bin| bin.to_bits() & (N as u32 - 1))
     }
 }
 
 /// What fell into each bin of each axis.
-struct Bins([[Bin; BINS]; 3]);
+struct Bins<const N: usize>([[Bin; N]; 3]);
 
 #[derive(Clone, Copy)]
 struct Bin {
@@ -229,17 +240,17 @@ impl Bin {
     }
 }
 
-impl Bins {
-    fn of(items: &[Node], grid: &Grid) -> Bins {
+impl<const N: usize> Bins<N> {
+    fn of(items: &[Node], grid: &Grid<N>) -> Bins<N> {
         if items.len() > PIECE {
             let pieces = items.par_chunks(PIECE).map(|piece| Bins::of(piece, grid));
-            return pieces.reduce(|| Bins([[Bin::EMPTY; BINS]; 3]), Bins::union);
+            return pieces.reduce(|| Bins([[Bin::EMPTY; N]; 3]), Bins::union);
         }
-        let mut bins = Bins([[Bin::EMPTY; BINS]; 3]);
+        let mut bins = Bins([[Bin::EMPTY; N]; 3]);
         for item in items {
             let (min, max) = (item.min(), item.max());
             for (axis, bin) in grid.bins(item).into_iter().enumerate() {
-                let bin = &mut bins.0[axis][bin];
+                let bin = &mut bins.0[axis][bin as usize];
                 bin.min = bin.min.min(min);
                 bin.max = bin.max.max(max);
                 bin.items += 1;
@@ -248,7 +259,7 @@ impl Bins {
         bins
     }
 
-    fn union(mut self, other: Bins) -> Bins {
+    fn union(mut self, other: Bins<N>) -> Bins<N> {
         for (ours, theirs) in self
             .0
             .as_flattened_mut()
@@ -261,12 +272,12 @@ impl Bins {
     }
 
     /// The axis and the first bin of the right child that cost least.
-    fn best_cut(&self, count: usize) -> (usize, usize) {
+    fn best_cut(&self) -> (usize, usize) {
         let (mut best, mut cut) = (f32::INFINITY, (0, 1));
         for (axis, bins) in self.0.iter().enumerate() {
-            let mut costs = [0.0; BINS];
+            let mut costs = [0.0; N];
             let mut right = Bin::EMPTY;
-            for bin in (1..count).rev() {
+            for bin in (1..N).rev() {
                 right = right.union(&bins[bin]);
                 costs[bin] = if right.items > 0 {
                     right.cost()
@@ -275,7 +286,7 @@ impl Bins {
                 };
             }
             let mut left = Bin::EMPTY;
-            for bin in 1..count {
+            for bin in 1..N {
                 left = left.union(&bins[bin - 1]);
                 if left.items == 0 {
                     continue;

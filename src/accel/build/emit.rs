@@ -76,7 +76,8 @@ impl<F: Fn(u32) -> Kind> Writer<'_, F> {
             open.extend(self.lay_node(&mut part, next));
             open[first..].reverse();
         }
-        fit(&mut part.nodes);
+        let count = part.nodes.len();
+        fit(&mut part.nodes, count);
         part
     }
 
@@ -126,12 +127,12 @@ impl<F: Fn(u32) -> Kind> Writer<'_, F> {
     }
 }
 
-/// Gives every child that is a node its box. Children follow their parents, so backwards each is ready.
-fn fit(nodes: &mut [Node]) {
-    for index in (0..nodes.len()).rev() {
+/// Gives every child of the first `count` nodes its box, if it is a node itself. Children follow their parents, so
+/// backwards each is ready.
+fn fit(nodes: &mut [Node], count: usize) {
+    for index in (0..count).rev() {
         for slot in 0..8 {
             let child = nodes[index].children[slot];
-            // The root is nobody's child: where it seems to be, there is none.
             if child.kind() == Kind::Node && child != Reference::NONE {
                 let around = around(&nodes[child.index()]);
                 nodes[index].set(slot, &around, child);
@@ -184,15 +185,7 @@ fn joined(mut whole: Topology, open: &[Open], parts: Vec<Topology>) -> Topology 
         whole.order.extend_from_slice(&part.order);
         whole.depth = whole.depth.max(part.depth);
     }
-    for index in (0..top).rev() {
-        for slot in 0..8 {
-            let child = whole.nodes[index].children[slot];
-            if child.kind() == Kind::Node && child != Reference::NONE {
-                let around = around(&whole.nodes[child.index()]);
-                whole.nodes[index].set(slot, &around, child);
-            }
-        }
-    }
+    fit(&mut whole.nodes, top);
     whole.sah_cost = sah_cost(&whole);
     whole
 }

@@ -1,9 +1,10 @@
-use super::build;
-use crate::accel::wide::{Kind, Node, Reference, Topology};
+use super::binary::Node;
+use super::{build, reinsertion};
+use crate::accel::wide::{self, Kind, Reference, Topology};
 use crate::accel::{Layout, Options, Preset};
 use crate::generate::Random;
 use crate::geometry::Bounds;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use std::num::NonZeroU8;
 
 const PRESETS: [Preset; 6] = [
@@ -22,7 +23,7 @@ fn with(preset: Preset) -> Options {
     }
 }
 
-fn boxed(node: &Node, slot: usize) -> Bounds {
+fn boxed(node: &wide::Node, slot: usize) -> Bounds {
     let corner = |planes: &[[f32; 8]; 3]| Vec3::from(planes.map(|plane| plane[slot]));
     Bounds {
         min: corner(&node.min),
@@ -30,7 +31,7 @@ fn boxed(node: &Node, slot: usize) -> Bounds {
     }
 }
 
-fn children(node: &Node) -> impl Iterator<Item = (usize, Reference)> + '_ {
+fn children(node: &wide::Node) -> impl Iterator<Item = (usize, Reference)> + '_ {
     let count = node
         .children
         .iter()
@@ -123,7 +124,7 @@ fn one_item_hangs_below_a_root() {
 fn eight_pairs_far_apart_are_eight_leaves_of_one_node() {
     let bounds: Vec<Bounds> = (0..16)
         .map(|i| {
-            let side = |bit: usize| (i / 2 >> bit & 1) as f32 * 100.0;
+            let side = |bit: usize| (((i / 2) >> bit) & 1) as f32 * 100.0;
             let at = Vec3::new(side(0), side(1), side(2)) + (i % 2) as f32;
             Bounds::around([at, at + 1.0])
         })
@@ -166,6 +167,22 @@ fn every_tree_holds_every_item_once() {
         };
         check(&build(&bounds, triangles, &one), &bounds, triangles, 1);
     }
+}
+
+#[test]
+fn reinsertion_parts_a_wrong_pair() {
+    // Two pairs far apart, paired crosswise: half areas of 2 for each and of 11 for the wrong ones.
+    let leaf = |x: f32, item| {
+        let min = Vec3A::new(x, 0.0, 0.0);
+        Node::leaf(min, min + Vec3A::new(0.5, 1.0, 0.0), item)
+    };
+    let (a, b, c, d) = (leaf(0.0, 0), leaf(10.0, 1), leaf(0.5, 2), leaf(10.5, 3));
+    let (left, right) = (a.joined(&b, 3), c.joined(&d, 5));
+    let mut nodes = [left.joined(&right, 1), left, right, a, b, c, d];
+    let sum = |nodes: &[Node]| nodes.iter().map(Node::half_area).sum::<f32>();
+    assert_eq!(sum(&nodes), 11.0 + 10.5 + 10.5 + 4.0 * 0.5);
+    reinsertion::improve(&mut nodes, 1.0, 8);
+    assert_eq!(sum(&nodes), 11.0 + 1.0 + 1.0 + 4.0 * 0.5);
 }
 
 #[test]
