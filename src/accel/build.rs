@@ -1,8 +1,11 @@
 //! The builder of the tree that rays walk: binary trees first, then the better of them with eight children a node.
 
 mod binary;
+mod binned;
+mod clustered;
 mod collapse;
 mod emit;
+mod reinsertion;
 mod scaled;
 #[cfg(test)]
 mod tests;
@@ -10,6 +13,7 @@ mod tests;
 use super::wide::{Kind, Topology};
 use super::{Options, Preset};
 use crate::geometry::Bounds;
+use binary::Node;
 use collapse::{Costs, Plan};
 
 /// The tree over `bounds`, whose items are of some kind each; empty where there are none.
@@ -23,9 +27,67 @@ pub(super) fn build(
     if bounds.is_empty() {
         return Topology::default();
     }
+    let effort = Effort::of(options.preset);
     let leaves = scaled::leaves(bounds);
     let costs = Costs::new(&leaves, options);
-    let tree = binary::clustered(leaves, options.preset);
-    let plan = Plan::new(&tree, &kind, &costs);
+    let planned = |mut nodes: Vec<Node>| {
+        reinsertion::improve(&mut nodes, effort.reinserted, effort.rounds);
+        let plan = Plan::new(&nodes, &kind, &costs);
+        (nodes, plan)
+    };
+    // Neither tree is the better for all scenes: the first is for rooms full of things, the second for landscapes and hair.
+    let clustered = |leaves| planned(clustered::joined(leaves, effort.reach, effort.near_rounds));
+    let binned = |mut leaves: Vec<Node>| {
+        let nodes = binned::split(&mut leaves);
+        drop(leaves);
+        planned(nodes)
+    };
+    let (tree, plan) = match effort.trees {
+        Trees::Clustered => clustered(leaves),
+        Trees::Binned => binned(leaves),
+        Trees::Both => {
+            let copy = leaves.clone();
+            let (a, b) = rayon::join(|| clustered(leaves), || binned(copy));
+            if a.1.cost < b.1.cost { a } else { b }
+        }
+    };
     emit::topology(&tree, &plan, bounds, &kind)
+}
+
+/// Which binary trees are built.
+enum Trees {
+    Clustered,
+    Binned,
+    Both,
+}
+
+/// What a preset does.
+struct Effort {
+    trees: Trees,
+    /// Neighbours looked at on each side, after some rounds that look only at the nearest.
+    reach: usize,
+    near_rounds: usize,
+    /// The share of all nodes for which reinsertion looks for a better place at first, and its rounds.
+    reinserted: f32,
+    rounds: usize,
+}
+
+impl Effort {
+    fn of(preset: Preset) -> Effort {
+        let (trees, reach, near_rounds, reinserted, rounds) = match preset {
+            Preset::Fastest => (Trees::Clustered, 1, 0, 0.0, 0),
+            Preset::VeryFast => (Trees::Clustered, 2, 2, 0.01, 4),
+            Preset::Fast => (Trees::Binned, 0, 0, 0.01, 4),
+            Preset::Medium => (Trees::Both, 14, 3, 0.03, 8),
+            Preset::Slow => (Trees::Both, 24, 2, 0.2, 16),
+            Preset::VerySlow => (Trees::Both, 32, 1, 1.0, 16),
+        };
+        Effort {
+            trees,
+            reach,
+            near_rounds,
+            reinserted,
+            rounds,
+        }
+    }
 }

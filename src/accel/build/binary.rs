@@ -1,81 +1,75 @@
-//! The door to obvhs: a binary tree with one item a leaf, in obvhs's form.
+//! A binary tree with one item a leaf: its root first, the two children of a node side by side.
 
-use super::Preset;
-use glam::Vec3A;
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::node::Bvh2Node;
-use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
-use obvhs::ploc::{PlocBuilder, SortPrecision};
+use glam::{Vec3A, Vec4};
 
-/// A leaf with one item, or an inner node; its children lie side by side.
+/// A leaf with one item, or an inner node: 32 bytes.
 #[derive(Clone, Copy)]
-#[repr(transparent)]
-pub(super) struct Node(Bvh2Node);
-
-/// A binary tree, its root first.
-pub(super) struct Tree(Bvh2);
+pub(super) struct Node {
+    /// The least corner, and the bits of the item or of the first child's index.
+    low: Vec4,
+    /// The greatest corner, and 1 for a leaf or 0.
+    high: Vec4,
+}
 
 impl Node {
     pub(super) fn leaf(min: Vec3A, max: Vec3A, item: u32) -> Node {
-        Node(Bvh2Node::new(Aabb::new(min, max), 1, item))
+        Node {
+            low: min.extend(f32::from_bits(item)),
+            high: max.extend(1.0),
+        }
     }
 
-    pub(super) fn half_area(&self) -> f32 {
-        self.0.aabb().half_area()
+    /// The parent of the node with the index `first_child` and the next one.
+    pub(super) fn inner(min: Vec3A, max: Vec3A, first_child: u32) -> Node {
+        Node {
+            low: min.extend(f32::from_bits(first_child)),
+            high: max.extend(0.0),
+        }
     }
-}
 
-impl Tree {
-    pub(super) fn len(&self) -> usize {
-        self.0.nodes.len()
+    pub(super) fn min(&self) -> Vec3A {
+        Vec3A::from_vec4(self.low)
+    }
+
+    pub(super) fn max(&self) -> Vec3A {
+        Vec3A::from_vec4(self.high)
+    }
+
+    pub(super) fn is_leaf(&self) -> bool {
+        self.high.w != 0.0
     }
 
     /// The item of a leaf.
-    pub(super) fn item(&self, node: u32) -> Option<u32> {
-        let node = &self.0.nodes[node as usize];
-        node.is_leaf().then_some(node.first_index)
+    pub(super) fn item(&self) -> Option<u32> {
+        self.is_leaf().then_some(self.low.w.to_bits())
     }
 
     /// The left child of an inner node; the right one is the next.
-    pub(super) fn first_child(&self, node: u32) -> u32 {
-        self.0.nodes[node as usize].first_index
+    pub(super) fn first_child(&self) -> u32 {
+        self.low.w.to_bits()
     }
 
-    pub(super) fn half_area(&self, node: u32) -> f32 {
-        self.0.nodes[node as usize].aabb().half_area()
+    pub(super) fn half_area(&self) -> f32 {
+        half_area(self.min(), self.max())
+    }
+
+    /// Half the area of the box around both.
+    pub(super) fn joint_area(&self, other: &Node) -> f32 {
+        half_area(self.min().min(other.min()), self.max().max(other.max()))
+    }
+
+    /// The parent of both, when they lie at `first_child` and after it.
+    pub(super) fn joined(&self, other: &Node, first_child: u32) -> Node {
+        Node::inner(
+            self.min().min(other.min()),
+            self.max().max(other.max()),
+            first_child,
+        )
     }
 }
 
-/// The tree that joins near neighbours, bottom up (PLOC: Meister and Bittner 2018), then reinsertion.
-pub(super) fn clustered(leaves: Vec<Node>, preset: Preset) -> Tree {
-    let leaves: Vec<Bvh2Node> = leaves.into_iter().map(|n| n.0).collect();
-    let all = leaves.iter().fold(Aabb::empty(), |a, n| a.union(n.aabb()));
-    let mut builder = PlocBuilder::new();
-    builder.current_nodes = leaves;
-    let mut bvh = Bvh2::default();
-    let precision = SortPrecision::U64;
-    match preset {
-        Preset::Fastest | Preset::VeryFast => {
-            builder.build_ploc_from_leaves::<1, false>(&mut bvh, all, precision, 0)
-        }
-        Preset::Fast => builder.build_ploc_from_leaves::<6, false>(&mut bvh, all, precision, 2),
-        Preset::Medium | Preset::Slow => {
-            builder.build_ploc_from_leaves::<14, false>(&mut bvh, all, precision, 3)
-        }
-        Preset::VerySlow => {
-            builder.build_ploc_from_leaves::<24, false>(&mut bvh, all, precision, 1)
-        }
-    }
-    drop(builder);
-    let ratio = match preset {
-        Preset::Fastest => 0.0,
-        Preset::VeryFast => 0.01,
-        Preset::Fast => 0.02,
-        Preset::Medium => 0.05,
-        Preset::Slow => 0.2,
-        Preset::VerySlow => 1.0,
-    };
-    ReinsertionOptimizer::default().run(&mut bvh, ratio, None);
-    Tree(bvh)
+/// Half the area of a box.
+pub(super) fn half_area(min: Vec3A, max: Vec3A) -> f32 {
+    let d = max - min;
+    (d.x + d.y) * d.z + d.x * d.y
 }

@@ -1,6 +1,6 @@
 //! The finished tree: what a plan says, with the exact boxes.
 
-use super::binary::Tree;
+use super::binary;
 use super::collapse::Plan;
 use crate::accel::wide::{Kind, Leaf, Node, Reference, Topology};
 use crate::geometry::Bounds;
@@ -21,7 +21,7 @@ struct Open {
 
 /// Everything the plan keeps of `tree`, a child soon after its parent.
 pub(super) fn topology(
-    tree: &Tree,
+    tree: &[binary::Node],
     plan: &Plan,
     bounds: &[Bounds],
     kind: &(impl Fn(u32) -> Kind + Sync),
@@ -57,7 +57,7 @@ pub(super) fn topology(
 }
 
 struct Writer<'a, F> {
-    tree: &'a Tree,
+    tree: &'a [binary::Node],
     plan: &'a Plan,
     bounds: &'a [Bounds],
     kind: &'a F,
@@ -76,7 +76,8 @@ impl<F: Fn(u32) -> Kind> Writer<'_, F> {
             open.extend(self.lay_node(&mut part, next));
             open[first..].reverse();
         }
-        fit(&mut part.nodes);
+        let count = part.nodes.len();
+        fit(&mut part.nodes, count);
         part
     }
 
@@ -109,11 +110,11 @@ impl<F: Fn(u32) -> Kind> Writer<'_, F> {
         let first = part.order.len();
         let (mut open, mut around) = (vec![from], Bounds::EMPTY);
         while let Some(node) = open.pop() {
-            if let Some(item) = self.tree.item(node) {
+            if let Some(item) = self.tree[node as usize].item() {
                 part.order.push(item);
                 around = around.union(self.bounds[item as usize]);
             } else {
-                let child = self.tree.first_child(node);
+                let child = self.tree[node as usize].first_child();
                 open.extend([child + 1, child]);
             }
         }
@@ -126,12 +127,12 @@ impl<F: Fn(u32) -> Kind> Writer<'_, F> {
     }
 }
 
-/// Gives every child that is a node its box. Children follow their parents, so backwards each is ready.
-fn fit(nodes: &mut [Node]) {
-    for index in (0..nodes.len()).rev() {
+/// Gives every child of the first `count` nodes its box, if it is a node itself. Children follow their parents, so
+/// backwards each is ready.
+fn fit(nodes: &mut [Node], count: usize) {
+    for index in (0..count).rev() {
         for slot in 0..8 {
             let child = nodes[index].children[slot];
-            // The root is nobody's child: where it seems to be, there is none.
             if child.kind() == Kind::Node && child != Reference::NONE {
                 let around = around(&nodes[child.index()]);
                 nodes[index].set(slot, &around, child);
@@ -189,15 +190,7 @@ fn joined(mut whole: Topology, open: &[Open], parts: Vec<Topology>) -> Topology 
         whole.order.extend_from_slice(&part.order);
         whole.depth = whole.depth.max(part.depth);
     }
-    for index in (0..top).rev() {
-        for slot in 0..8 {
-            let child = whole.nodes[index].children[slot];
-            if child.kind() == Kind::Node && child != Reference::NONE {
-                let around = around(&whole.nodes[child.index()]);
-                whole.nodes[index].set(slot, &around, child);
-            }
-        }
-    }
+    fit(&mut whole.nodes, top);
     whole.sah_cost = sah_cost(&whole);
     whole
 }

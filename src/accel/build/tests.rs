@@ -1,9 +1,10 @@
-use super::build;
-use crate::accel::wide::{Kind, Node, Reference, Topology};
+use super::binary::Node;
+use super::{build, reinsertion};
+use crate::accel::wide::{self, Kind, Reference, Topology};
 use crate::accel::{Layout, Options, Preset};
 use crate::generate::Random;
 use crate::geometry::Bounds;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use std::num::NonZeroU8;
 
 const PRESETS: [Preset; 6] = [
@@ -22,7 +23,7 @@ fn with(preset: Preset) -> Options {
     }
 }
 
-fn boxed(node: &Node, slot: usize) -> Bounds {
+fn boxed(node: &wide::Node, slot: usize) -> Bounds {
     let corner = |planes: &[[f32; 8]; 3]| Vec3::from(planes.map(|plane| plane[slot]));
     Bounds {
         min: corner(&node.corners[0]),
@@ -30,7 +31,7 @@ fn boxed(node: &Node, slot: usize) -> Bounds {
     }
 }
 
-fn children(node: &Node) -> impl Iterator<Item = (usize, Reference)> + '_ {
+fn children(node: &wide::Node) -> impl Iterator<Item = (usize, Reference)> + '_ {
     let count = node
         .children
         .iter()
@@ -123,7 +124,7 @@ fn one_item_hangs_below_a_root() {
 fn eight_pairs_far_apart_are_eight_leaves_of_one_node() {
     let bounds: Vec<Bounds> = (0..16)
         .map(|i| {
-            let side = |bit: usize| (i / 2 >> bit & 1) as f32 * 100.0;
+            let side = |bit: usize| (((i / 2) >> bit) & 1) as f32 * 100.0;
             let at = Vec3::new(side(0), side(1), side(2)) + (i % 2) as f32;
             Bounds::around([at, at + 1.0])
         })
@@ -170,6 +171,22 @@ fn every_tree_holds_every_item_once() {
 }
 
 #[test]
+fn reinsertion_parts_a_wrong_pair() {
+    // Two pairs far apart, paired crosswise: half areas of 2 for each and of 11 for the wrong ones.
+    let leaf = |x: f32, item| {
+        let min = Vec3A::new(x, 0.0, 0.0);
+        Node::leaf(min, min + Vec3A::new(0.5, 1.0, 0.0), item)
+    };
+    let (a, b, c, d) = (leaf(0.0, 0), leaf(10.0, 1), leaf(0.5, 2), leaf(10.5, 3));
+    let (left, right) = (a.joined(&b, 3), c.joined(&d, 5));
+    let mut nodes = [left.joined(&right, 1), left, right, a, b, c, d];
+    let sum = |nodes: &[Node]| nodes.iter().map(Node::half_area).sum::<f32>();
+    assert_eq!(sum(&nodes), 11.0 + 10.5 + 10.5 + 4.0 * 0.5);
+    reinsertion::improve(&mut nodes, 1.0, 8);
+    assert_eq!(sum(&nodes), 11.0 + 1.0 + 1.0 + 4.0 * 0.5);
+}
+
+#[test]
 fn any_number_of_threads_makes_the_same_tree() {
     let bounds = random_boxes(20_000);
     let built = |threads| {
@@ -182,4 +199,83 @@ fn any_number_of_threads_makes_the_same_tree() {
     let alone = built(1);
     assert_eq!(built(2), alone);
     assert_eq!(built(5), alone);
+}
+
+/// Boxes that once took long, or that make deep trees: each in time and depth like any others.
+fn odd(name: &str, count: usize) -> Vec<Bounds> {
+    let cube = |center: Vec3, half: f32| Bounds {
+        min: center - half,
+        max: center + half,
+    };
+    (0..count)
+        .map(|i| {
+            let x = i as f32 / count as f32;
+            match name {
+                "identical" => cube(Vec3::ONE, 0.5),
+                "nested" => cube(Vec3::ZERO, 1.0 + i as f32),
+                "nested in a corner" => Bounds::around([Vec3::ZERO, Vec3::splat(1.0 + i as f32)]),
+                "ever smaller" => cube(Vec3::X * (1.0 - x), 1e-3 * (1.0 - x)),
+                "geometric" => {
+                    let size = libm::exp2f(-(i as f32) * 140.0 / count as f32);
+                    cube(Vec3::X * size, size * 0.25)
+                }
+                "halved each time" => {
+                    let size = libm::exp2f(-(i as f32));
+                    cube(Vec3::X * size, size * 0.25)
+                }
+                "fan" => {
+                    let rim = |x: f32| {
+                        let turn = x * std::f32::consts::TAU;
+                        Vec3::new(libm::cosf(turn), libm::sinf(turn), 0.0)
+                    };
+                    Bounds::around([Vec3::ZERO, rim(x), rim((i + 1) as f32 / count as f32)])
+                }
+                "two fans" => {
+                    let rim = |x: f32| {
+                        let turn = x * std::f32::consts::TAU;
+                        Vec3::new(libm::cosf(turn), libm::sinf(turn), 0.0)
+                    };
+                    let tip = Vec3::Z * (i % 2) as f32 * 1e-3;
+                    let (from, to) = (i / 2 * 2, i / 2 * 2 + 2);
+                    let at = |i: usize| rim(i as f32 / count as f32);
+                    Bounds::around([tip, at(from), at(to)])
+                }
+                "flat" => cube(Vec3::new(x, libm::sinf(x * 100.0), 0.0), 0.0),
+                "one point" => cube(Vec3::ONE, 0.0),
+                "small and great" => cube(Vec3::X * x, if i % 2 == 0 { 1e-6 } else { 1e6 }),
+                _ => cube(Vec3::new(x, x * x, 1.0) * 1e15, 1e10),
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn odd_boxes_are_built_like_any_others() {
+    let names = [
+        "identical",
+        "nested",
+        "nested in a corner",
+        "ever smaller",
+        "geometric",
+        "halved each time",
+        "fan",
+        "two fans",
+        "flat",
+        "one point",
+        "small and great",
+        "far",
+    ];
+    for name in names {
+        let bounds = odd(name, 20_000);
+        for preset in [Preset::Fastest, Preset::Medium] {
+            let topology = build(&bounds, triangles, &with(preset));
+            check(&topology, &bounds, triangles, 8);
+            assert!(topology.depth <= 200, "{name}: {}", topology.depth);
+            assert!(
+                topology.nodes.len() * 3 <= bounds.len(),
+                "{name}: {}",
+                topology.nodes.len()
+            );
+        }
+    }
 }
