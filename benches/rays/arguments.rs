@@ -51,7 +51,10 @@ impl Arguments {
     /// frame/` gives them to every program.
     pub(crate) fn of_this_run() -> Arguments {
         let arguments = Arguments::try_parse().unwrap_or_else(|error| match error.kind() {
-            ErrorKind::UnknownArgument => not_for_us(&error.to_string()),
+            ErrorKind::UnknownArgument => {
+                let message = error.to_string();
+                not_for_us(message.lines().next().unwrap_or_default())
+            }
             _ => error.exit(),
         });
         let unknown = arguments
@@ -102,6 +105,6 @@ fn engine(name: &str) -> Result<Engine, String> {
 }
 
 fn not_for_us(reason: &str) -> ! {
-    eprintln!("rays: nothing measured: {}", reason.trim_end());
+    eprintln!("rays: nothing measured: {reason} (--help tells what there is)");
     exit(0);
 }

@@ -223,9 +223,9 @@ impl EmbreeScene<'_> {
 
     /// The widest instructions it uses, told by the packets that it takes whole.
     pub(crate) fn isa(&self) -> &'static str {
-        // SAFETY: the device is this library's own. 1 and 2 are RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED and _RAY16_.
-        let [eight, sixteen] =
-            [1, 2].map(|property| unsafe { (self.embree.device_property)(self.device, property) });
+        // SAFETY: the device is this library's own. 33 and 34 are RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED and _RAY16_.
+        let [eight, sixteen] = [33, 34]
+            .map(|property| unsafe { (self.embree.device_property)(self.device, property) });
         match (eight, sixteen) {
             (_, 1) => "avx512",
             (1, _) => "avx2",

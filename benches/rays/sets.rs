@@ -107,7 +107,7 @@ pub(crate) fn make(
             let mut random = Random::new(number as u64);
             [
                 seen.iter()
-                    .filter_map(|seen| seen.from_light(light))
+                    .filter_map(|seen| seen.lit_from(light))
                     .collect(),
                 seen.iter().map(Seen::mirrored).collect(),
                 seen.iter()
@@ -177,7 +177,7 @@ impl Seen {
     }
 
     /// The ray from `light` that ends a little before this point; `None` where the light stands on it.
-    fn from_light(&self, light: Vec3) -> Option<Ray> {
+    fn lit_from(&self, light: Vec3) -> Option<Ray> {
         let way = self.position - light;
         let distance = way.length();
         let direction = way.try_normalize()?;

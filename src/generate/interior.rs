@@ -26,7 +26,8 @@ pub enum Decoration {
     Textured,
 }
 
-/// A dining room of about 75,000 triangles, lit by a lamp over the table and one in a corner, seen from inside.
+/// A dining room of about 88,000 triangles, lit by a lamp over the table and one in a corner, seen from inside. It has
+/// one mesh and one material for each of seven finishes; normals are smooth where things are round.
 pub fn interior(decoration: Decoration) -> SceneDescription {
     let size = Vec3::new(5.2, 2.6, 4.4);
     let mut room = Room::default();
@@ -193,9 +194,8 @@ mod tests {
     #[test]
     fn the_room_is_a_scene_of_the_size_of_a_real_one() {
         for decoration in [Decoration::Plain, Decoration::Textured] {
-            let scene = Scene::new(interior(decoration)).unwrap();
-            let triangles = scene.primitive_count();
-            assert!((50_000..100_000).contains(&triangles), "{triangles}");
+            let triangles = Scene::new(interior(decoration)).map(|scene| scene.primitive_count());
+            assert!(matches!(triangles, Ok(50_000..100_000)), "{triangles:?}");
         }
     }
 
@@ -221,8 +221,8 @@ mod tests {
 
     #[test]
     fn walls_are_a_million_times_as_large_as_the_smallest_details() {
-        let scene = Scene::new(interior(Decoration::Plain)).unwrap();
-        let areas = scene.meshes().iter().flat_map(|mesh| {
+        let meshes = interior(Decoration::Plain).meshes;
+        let areas = meshes.iter().flat_map(|mesh| {
             (0..mesh.triangles.len() as u32).map(|index| {
                 let [a, b, c] = mesh.triangle(index).0;
                 (b - a).cross(c - a).length() / 2.0
