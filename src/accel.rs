@@ -18,7 +18,7 @@ pub use kernel::{Isa, IsaError};
 use crate::geometry::{Bounds, Hit, Plane};
 use crate::ray::Ray;
 use crate::scene::{InstanceSpace, PlacedInstance, Scene};
-use kernel::{Best, Scratch};
+use kernel::Scratch;
 use rayon::prelude::*;
 use std::cell::RefCell;
 use std::num::NonZeroU8;
@@ -93,6 +93,8 @@ pub struct Accel {
     isa: Isa,
     packets: bool,
     has_transparent: bool,
+    /// The most that a search leaves on its stack.
+    stack_size: usize,
     statistics: Statistics,
 }
 
@@ -169,8 +171,11 @@ impl Accel {
             isa: options.isa,
             packets: options.packets,
             has_transparent: (0..scene.materials().len() as u32).any(|material| !opaque(material)),
+            stack_size: 0,
             statistics: Statistics::default(),
         };
+        let of_meshes = accel.meshes.iter().map(Tree::stack_size).max();
+        accel.stack_size = accel.world.stack_size() + of_meshes.unwrap_or(0);
         accel.statistics = Statistics {
             build_time: start.elapsed(),
             ..accel.measure()
@@ -180,36 +185,30 @@ impl Accel {
 
     /// The nearest primitive on the ray; of several at the same `t` the one with the lowest number.
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
-        SCRATCH.with_borrow_mut(|scratch| {
-            self.search_nearest(std::slice::from_ref(ray), scratch);
-            scratch.best.first().and_then(Best::hit)
-        })
+        let mut hits = Vec::new();
+        self.intersect_all(std::slice::from_ref(ray), &mut hits);
+        hits.pop().flatten()
     }
 
     /// [`Accel::intersect`] for each ray, into `hits`, which is cleared first.
     pub fn intersect_all(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
         hits.clear();
-        SCRATCH.with_borrow_mut(|scratch| {
-            self.search_nearest(rays, scratch);
-            hits.extend(scratch.best.iter().map(Best::hit));
-        });
+        hits.reserve(rays.len());
+        SCRATCH.with_borrow_mut(|scratch| kernel::closest(self, rays, scratch, hits));
     }
 
     /// Whether the ray meets any opaque primitive.
     pub fn occluded(&self, ray: &Ray) -> bool {
-        SCRATCH.with_borrow_mut(|scratch| {
-            self.search_any(std::slice::from_ref(ray), scratch);
-            scratch.occluded.first().is_some_and(|&occluded| occluded)
-        })
+        let mut occluded = Vec::new();
+        self.occluded_all(std::slice::from_ref(ray), &mut occluded);
+        occluded.pop().unwrap_or(false)
     }
 
     /// [`Accel::occluded`] for each ray, into `occluded`, which is cleared first.
     pub fn occluded_all(&self, rays: &[Ray], occluded: &mut Vec<bool>) {
         occluded.clear();
-        SCRATCH.with_borrow_mut(|scratch| {
-            self.search_any(rays, scratch);
-            occluded.extend_from_slice(&scratch.occluded);
-        });
+        occluded.reserve(rays.len());
+        SCRATCH.with_borrow_mut(|scratch| kernel::occluded(self, rays, scratch, occluded));
     }
 
     /// Whether any material of the scene lets some light through, so that [`Accel::occluded`] is not the whole answer.
@@ -220,35 +219,6 @@ impl Accel {
     /// What was built, and what it took.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
-    }
-
-    fn search_nearest(&self, rays: &[Ray], scratch: &mut Scratch) {
-        scratch.best.clear();
-        scratch.best.extend(rays.iter().map(|ray| {
-            let mut best = Best::new(ray.t_max);
-            for p in &self.planes {
-                if let Some(hit) = primitive::plane(&p.plane, ray, p.number) {
-                    best.offer(hit.t, hit.primitive, hit.barycentric);
-                }
-            }
-            best
-        }));
-        kernel::closest(self, rays, scratch);
-    }
-
-    fn search_any(&self, rays: &[Ray], scratch: &mut Scratch) {
-        let plane = |ray: &Ray| {
-            let met =
-                |p: &NumberedPlane| p.opaque && primitive::plane(&p.plane, ray, p.number).is_some();
-            self.planes.iter().any(met)
-        };
-        scratch.best.clear();
-        scratch
-            .best
-            .extend(rays.iter().map(|ray| Best::new(ray.t_max)));
-        scratch.occluded.clear();
-        scratch.occluded.extend(rays.iter().map(plane));
-        kernel::occluded(self, rays, scratch);
     }
 
     fn measure(&self) -> Statistics {

@@ -1,43 +1,34 @@
-//! Rays in, answers out: which of a batch go together, and which alone.
+//! Rays in, answers out: 64 at a time, those that go the same way together, the others alone.
 
 use super::float::Machine;
-use super::packet::{self, Packet, SIZE, Waiting64};
-use super::single::{self, Best, Question, Waiting};
-use crate::accel::Accel;
-use crate::accel::primitive::Probe;
+use super::packet::{self, Waiting64};
+use super::rays::{Rays, SIZE};
+use super::single::{Any, Closest, Question, Waiting};
 use crate::accel::wide::Reference;
+use crate::accel::{Accel, primitive};
+use crate::geometry::Hit;
 use crate::ray::Ray;
 
 /// Fewer rays than this are not worth a packet.
-const LEAST: usize = 8;
-/// Octants times longest axes.
-const CLASSES: usize = 32;
+const LEAST: u32 = 8;
 
 /// The memory of a search, kept from batch to batch.
 pub(in crate::accel) struct Scratch {
-    packet: Box<Packet>,
+    rays: Box<Rays>,
     waiting: Vec<Waiting>,
     waiting64: Vec<Waiting64>,
-    /// The answers so far; what was found before the trees goes in here.
-    pub(in crate::accel) best: Vec<Best>,
-    /// Which rays are occluded.
-    pub(in crate::accel) occluded: Vec<bool>,
 }
 
 impl Scratch {
     pub(in crate::accel) fn new() -> Scratch {
         Scratch {
-            packet: Box::new(Packet::new()),
+            rays: Box::new(Rays::new()),
             waiting: Vec::new(),
             waiting64: Vec::new(),
-            best: Vec::new(),
-            occluded: Vec::new(),
         }
     }
 
-    fn make_room(&mut self, accel: &Accel) {
-        let inner = accel.meshes.iter().map(|mesh| mesh.stack_size()).max();
-        let size = accel.world.stack_size() + inner.unwrap_or(0);
+    fn make_room(&mut self, size: usize) {
         if self.waiting.len() < size {
             self.waiting.resize(size, Waiting::NOTHING);
             self.waiting64.resize(size, Waiting64::NOTHING);
@@ -45,95 +36,78 @@ impl Scratch {
     }
 }
 
-/// The signs of a direction and its longest axis: rays of one class can go in one packet.
+/// The nearest hit of each ray, added to `hits`.
 #[inline(always)]
-fn class(ray: &Ray) -> u8 {
-    let d = ray.direction;
-    let (x, y, z) = (d.x.abs(), d.y.abs(), d.z.abs());
-    let axis = if x >= y && x >= z {
-        0
-    } else if y >= z {
-        1
-    } else {
-        2
-    };
-    u8::from(d.x < 0.0) | u8::from(d.y < 0.0) << 1 | u8::from(d.z < 0.0) << 2 | axis << 3
-}
-
-/// Searches for every ray what the trees have; the answers are in `scratch`, where those from before are, too.
-#[inline(always)]
-pub(super) fn search<M: Machine, Q: Question>(accel: &Accel, rays: &[Ray], scratch: &mut Scratch) {
-    if accel.world.is_empty() {
-        return;
-    }
-    scratch.make_room(accel);
-    for (at, chunk) in rays.chunks(SIZE).enumerate() {
-        let from = at * SIZE;
-        let mut members = [[0u8; SIZE]; 1];
-        let mut classes = [0u8; SIZE];
-        let mut present = 0u32;
-        for (index, ray) in chunk.iter().enumerate() {
-            let done = Q::ANY && scratch.occluded[from + index];
-            let lone = ray.after.is_some() || !accel.packets;
-            classes[index] = class(ray) | u8::from(lone) << 6 | u8::from(done) << 7;
-            present |= 1 << (class(ray) & 31);
-        }
-        for class in 0..CLASSES as u8 {
-            if present >> class & 1 == 0 {
-                continue;
-            }
-            let mut count = 0;
-            for (index, &c) in classes[..chunk.len()].iter().enumerate() {
-                members[0][count & 63] = index as u8;
-                count += usize::from(c == class);
-            }
-            let members = &members[0][..count.min(SIZE)];
-            if count < LEAST {
-                for &member in members {
-                    one::<M, Q>(accel, chunk, from, usize::from(member), scratch);
-                }
-                continue;
-            }
-            let Scratch {
-                packet,
-                waiting,
-                waiting64,
-                best,
-                occluded,
-            } = scratch;
-            packet.fill::<M>(chunk, members, &best[from..], accel.world.extent);
-            packet::walk::<M, Q>(&accel.world, &accel.meshes, packet, waiting64, waiting);
-            for (lane, &member) in members.iter().enumerate() {
-                let index = from + usize::from(member);
-                if Q::ANY {
-                    occluded[index] = packet.answered(lane);
-                } else {
-                    best[index] = packet.best(lane);
-                }
-            }
-        }
-        for (index, &c) in classes[..chunk.len()].iter().enumerate() {
-            if c >> 6 == 1 {
-                one::<M, Q>(accel, chunk, from, index, scratch);
-            }
-        }
-    }
-}
-
-#[inline(always)]
-fn one<M: Machine, Q: Question>(
+pub(super) fn closest<M: Machine>(
     accel: &Accel,
-    chunk: &[Ray],
-    from: usize,
-    index: usize,
+    rays: &[Ray],
     scratch: &mut Scratch,
+    hits: &mut Vec<Option<Hit>>,
 ) {
-    let probe = Probe::new(chunk[index], accel.world.extent);
-    let best = &mut scratch.best[from + index];
+    scratch.make_room(accel.stack_size);
+    for chunk in rays.chunks(SIZE) {
+        scratch.rays.fill::<M>(chunk, accel.world.extent);
+        for p in &accel.planes {
+            for (lane, ray) in chunk.iter().enumerate() {
+                if let Some(hit) = primitive::plane(&p.plane, ray, p.number) {
+                    scratch.rays.offer(lane, &hit);
+                }
+            }
+        }
+        search::<M, Closest>(accel, scratch);
+        for lane in 0..chunk.len() {
+            hits.push(scratch.rays.hit(lane));
+        }
+    }
+}
+
+/// Whether each ray meets anything opaque, added to `occluded`.
+#[inline(always)]
+pub(super) fn occluded<M: Machine>(
+    accel: &Accel,
+    rays: &[Ray],
+    scratch: &mut Scratch,
+    occluded: &mut Vec<bool>,
+) {
+    scratch.make_room(accel.stack_size);
+    for chunk in rays.chunks(SIZE) {
+        scratch.rays.fill::<M>(chunk, accel.world.extent);
+        for p in &accel.planes {
+            for (lane, ray) in chunk.iter().enumerate() {
+                if p.opaque && primitive::plane(&p.plane, ray, p.number).is_some() {
+                    scratch.rays.live &= !(1 << lane);
+                }
+            }
+        }
+        search::<M, Any>(accel, scratch);
+        let live = scratch.rays.live;
+        for lane in 0..chunk.len() {
+            occluded.push(live >> lane & 1 == 0);
+        }
+    }
+}
+
+/// Searches the trees for all rays in `scratch`.
+#[inline(always)]
+fn search<M: Machine, Q: Question>(accel: &Accel, scratch: &mut Scratch) {
     let (world, meshes) = (&accel.world, &accel.meshes);
-    let stack = &mut scratch.waiting;
-    let found = single::walk::<M, Q, true>(world, meshes, Reference::ROOT, 0, &probe, best, stack);
-    if Q::ANY {
-        scratch.occluded[from + index] = found;
+    let Scratch {
+        rays,
+        waiting,
+        waiting64,
+    } = scratch;
+    let lone = if accel.packets { rays.goes_on() } else { u64::MAX };
+    rays.alone::<M, Q>(world, meshes, Reference::ROOT, rays.live & lone, waiting);
+    let mut left = rays.live & !lone;
+    while left != 0 {
+        let bundle = rays.bundle::<M>(left);
+        left &= !bundle.members;
+        if bundle.members.count_ones() < LEAST || !rays.is_coherent::<M>(&bundle) {
+            rays.alone::<M, Q>(world, meshes, Reference::ROOT, bundle.members, waiting);
+        } else if rays.common_origin {
+            packet::walk::<M, Q, true>(world, meshes, rays, &bundle, waiting64, waiting);
+        } else {
+            packet::walk::<M, Q, false>(world, meshes, rays, &bundle, waiting64, waiting);
+        }
     }
 }
