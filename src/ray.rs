@@ -7,6 +7,7 @@ use glam::Vec3;
 /// Both limits belong to the ray. `direction` is unit length for every ray the picture is made of; inside the space
 /// of an instance it is not, so that `t` means the same in both spaces. No component of it is ever `-0.0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Ray {
     /// `C`, world space.
     pub origin: Vec3,

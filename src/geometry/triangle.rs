@@ -37,11 +37,12 @@ impl RaySpace {
             Axis::Z
         };
         let d = longest.last(ray.direction);
+        let per_unit = (1.0 / d.z).clamp(f32::MIN, f32::MAX);
         RaySpace {
             origin: ray.origin,
             longest,
-            slope: d.xy() / d.z,
-            per_unit: (1.0 / d.z).clamp(f32::MIN, f32::MAX),
+            slope: d.xy() * per_unit,
+            per_unit,
         }
     }
 

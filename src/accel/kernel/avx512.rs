@@ -1,9 +1,9 @@
 //! AVX-512: sixteen lanes in a register, and masks that need no register of floats.
 //!
 //! Every `unsafe` here calls instructions of AVX-512 F and VL. It is sound since values of these types come to be only
-//! inside the entries of [`super`], which run only where an [`super::Isa`] says that the CPU has them.
+//! inside [`Machine::run`], which [`super`] calls only where an [`super::Isa`] says that the CPU has them.
 
-use super::float::{Float, Machine};
+use super::float::{Float, Machine, Task};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -20,9 +20,51 @@ impl Machine for Avx512 {
     type F16 = F16;
 
     #[inline(always)]
+    fn run<T: Task>(task: T) -> T::Output {
+        #[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512dq,avx512bw")]
+        fn with_features<T: Task>(task: T) -> T::Output {
+            task.run::<Avx512>()
+        }
+        // SAFETY: as said at the head of the file.
+        unsafe { with_features(task) }
+    }
+
+    #[inline(always)]
     fn prefetch<T>(from: &T) {
         // SAFETY: a prefetch reads nothing that a program could see; SSE is part of x86-64.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(from).cast()) }
+    }
+
+    #[inline(always)]
+    fn transpose(rows: [&[f32; 8]; 8]) -> [F8; 8] {
+        let [a, b, c, d, e, f, g, h] = rows.map(F8::load);
+        let upper = quarters([a, b, c, d]);
+        let lower = quarters([e, f, g, h]);
+        let mut columns = [a; 8];
+        for k in 0..4 {
+            // SAFETY: as said at the head of the file.
+            unsafe {
+                columns[k] = F8(_mm256_permute2f128_ps::<0x20>(upper[k].0, lower[k].0));
+                columns[k + 4] = F8(_mm256_permute2f128_ps::<0x31>(upper[k].0, lower[k].0));
+            }
+        }
+        columns
+    }
+}
+
+/// Four rows, each of whose halves becomes columns of four.
+#[inline(always)]
+fn quarters([a, b, c, d]: [F8; 4]) -> [F8; 4] {
+    // SAFETY: as said at the head of the file.
+    unsafe {
+        let (ab, ab_high) = (_mm256_unpacklo_ps(a.0, b.0), _mm256_unpackhi_ps(a.0, b.0));
+        let (cd, cd_high) = (_mm256_unpacklo_ps(c.0, d.0), _mm256_unpackhi_ps(c.0, d.0));
+        [
+            F8(_mm256_shuffle_ps::<0b01_00_01_00>(ab, cd)),
+            F8(_mm256_shuffle_ps::<0b11_10_11_10>(ab, cd)),
+            F8(_mm256_shuffle_ps::<0b01_00_01_00>(ab_high, cd_high)),
+            F8(_mm256_shuffle_ps::<0b11_10_11_10>(ab_high, cd_high)),
+        ]
     }
 }
 

@@ -1,6 +1,7 @@
 //! Rays in, answers out: 64 at a time, those that go the same way together, the others alone.
 
-use super::float::Machine;
+use super::alone::Search;
+use super::float::{Machine, Task};
 use super::packet::{self, Waiting64};
 use super::rays::{Rays, SIZE};
 use super::single::{Any, Closest, Question, Waiting};
@@ -36,78 +37,98 @@ impl Scratch {
     }
 }
 
-/// The nearest hit of each ray, added to `hits`.
-#[inline(always)]
-pub(super) fn closest<M: Machine>(
-    accel: &Accel,
-    rays: &[Ray],
-    scratch: &mut Scratch,
-    hits: &mut Vec<Option<Hit>>,
-) {
-    scratch.make_room(accel.stack_size);
-    for chunk in rays.chunks(SIZE) {
-        scratch.rays.fill::<M>(chunk, accel.world.extent);
-        for p in &accel.planes {
-            for (lane, ray) in chunk.iter().enumerate() {
-                if let Some(hit) = primitive::plane(&p.plane, ray, p.number) {
-                    scratch.rays.offer(lane, &hit);
+/// Adds the nearest hit of each ray to `hits`.
+pub(super) struct ClosestOf<'a> {
+    pub(super) accel: &'a Accel,
+    pub(super) rays: &'a [Ray],
+    pub(super) scratch: &'a mut Scratch,
+    pub(super) hits: &'a mut Vec<Option<Hit>>,
+}
+
+/// Adds to `occluded` whether each ray meets anything opaque.
+pub(super) struct OccludedOf<'a> {
+    pub(super) accel: &'a Accel,
+    pub(super) rays: &'a [Ray],
+    pub(super) scratch: &'a mut Scratch,
+    pub(super) occluded: &'a mut Vec<bool>,
+}
+
+impl Task for ClosestOf<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<M: Machine>(self) {
+        let (accel, scratch) = (self.accel, self.scratch);
+        scratch.make_room(accel.stack_size);
+        for chunk in self.rays.chunks(SIZE) {
+            scratch.rays.fill::<M>(chunk, accel.world.extent);
+            for p in &accel.planes {
+                for (lane, ray) in chunk.iter().enumerate() {
+                    if let Some(hit) = primitive::plane(&p.plane, ray, p.number) {
+                        scratch.rays.offer(lane, &hit);
+                    }
                 }
             }
-        }
-        search::<M, Closest>(accel, scratch);
-        for lane in 0..chunk.len() {
-            hits.push(scratch.rays.hit(lane));
+            search::<M, Closest>(accel, chunk, scratch);
+            let rays = &*scratch.rays;
+            self.hits
+                .extend((0..chunk.len()).map(|lane| rays.best(lane).hit()));
         }
     }
 }
 
-/// Whether each ray meets anything opaque, added to `occluded`.
-#[inline(always)]
-pub(super) fn occluded<M: Machine>(
-    accel: &Accel,
-    rays: &[Ray],
-    scratch: &mut Scratch,
-    occluded: &mut Vec<bool>,
-) {
-    scratch.make_room(accel.stack_size);
-    for chunk in rays.chunks(SIZE) {
-        scratch.rays.fill::<M>(chunk, accel.world.extent);
-        for p in &accel.planes {
-            for (lane, ray) in chunk.iter().enumerate() {
-                if p.opaque && primitive::plane(&p.plane, ray, p.number).is_some() {
-                    scratch.rays.live &= !(1 << lane);
+impl Task for OccludedOf<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<M: Machine>(self) {
+        let (accel, scratch) = (self.accel, self.scratch);
+        scratch.make_room(accel.stack_size);
+        for chunk in self.rays.chunks(SIZE) {
+            scratch.rays.fill::<M>(chunk, accel.world.extent);
+            for p in &accel.planes {
+                for (lane, ray) in chunk.iter().enumerate() {
+                    if p.opaque && primitive::plane(&p.plane, ray, p.number).is_some() {
+                        scratch.rays.live &= !(1 << lane);
+                    }
                 }
             }
-        }
-        search::<M, Any>(accel, scratch);
-        let live = scratch.rays.live;
-        for lane in 0..chunk.len() {
-            occluded.push(live >> lane & 1 == 0);
+            search::<M, Any>(accel, chunk, scratch);
+            let live = scratch.rays.live;
+            self.occluded
+                .extend((0..chunk.len()).map(|lane| live >> lane & 1 == 0));
         }
     }
 }
 
-/// Searches the trees for all rays in `scratch`.
+/// Searches the trees for `chunk`, which is in `scratch`.
 #[inline(always)]
-fn search<M: Machine, Q: Question>(accel: &Accel, scratch: &mut Scratch) {
-    let (world, meshes) = (&accel.world, &accel.meshes);
+fn search<M: Machine, Q: Question>(accel: &Accel, chunk: &[Ray], scratch: &mut Scratch) {
     let Scratch {
         rays,
         waiting,
         waiting64,
     } = scratch;
-    let lone = if accel.packets { rays.goes_on() } else { u64::MAX };
-    rays.alone::<M, Q>(world, meshes, Reference::ROOT, rays.live & lone, waiting);
-    let mut left = rays.live & !lone;
+    let mut search = Search {
+        accel,
+        chunk,
+        rays,
+        stack: waiting,
+    };
+    let mut left = search.rays.live;
+    if !accel.packets {
+        search.alone::<M, Q>(Reference::ROOT, left);
+        return;
+    }
     while left != 0 {
-        let bundle = rays.bundle::<M>(left);
+        let mut bundle = search.rays.of_one_class(left);
         left &= !bundle.members;
-        if bundle.members.count_ones() < LEAST || !rays.is_coherent::<M>(&bundle) {
-            rays.alone::<M, Q>(world, meshes, Reference::ROOT, bundle.members, waiting);
-        } else if rays.common_origin {
-            packet::walk::<M, Q, true>(world, meshes, rays, &bundle, waiting64, waiting);
+        if bundle.members.count_ones() < LEAST || !search.rays.make_ready::<M>(&mut bundle) {
+            search.alone::<M, Q>(Reference::ROOT, bundle.members);
+        } else if search.rays.common_origin {
+            packet::walk::<M, Q, true>(&mut search, &bundle, waiting64);
         } else {
-            packet::walk::<M, Q, false>(world, meshes, rays, &bundle, waiting64, waiting);
+            packet::walk::<M, Q, false>(&mut search, &bundle, waiting64);
         }
     }
 }

@@ -34,9 +34,20 @@ pub(super) trait Float<const N: usize>:
 }
 
 /// An instruction set: registers for the eight children of a node or the triangles of a block, and for sixteen rays.
-pub(super) trait Machine {
+pub(super) trait Machine: Sized {
     type F8: Float<8>;
     type F16: Float<16>;
+    /// Runs a task as a function of its own that may use this machine's instructions.
+    fn run<T: Task>(task: T) -> T::Output;
     /// Asks for a line of cache that will be read soon.
     fn prefetch<T>(from: &T);
+    /// Eight times eight floats, rows for columns.
+    fn transpose(rows: [&[f32; 8]; 8]) -> [Self::F8; 8];
+}
+
+/// What a machine runs.
+pub(super) trait Task {
+    type Output;
+    /// Is `#[inline(always)]`, so that it becomes part of a function with the machine's instructions.
+    fn run<M: Machine>(self) -> Self::Output;
 }

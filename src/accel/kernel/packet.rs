@@ -6,11 +6,12 @@
 //! Shirley 2007, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchies"; Tsakok 2009, "Faster
 //! Incoherent Rays: Multi-BVH Ray Stream Tracing", for the test by children.)
 
+use super::alone::Search;
 use super::equation::{box_of, cross, interval, minus, pick, rows, spread};
 use super::float::{Float, Machine};
 use super::rays::{Bundle, Rays, three};
-use super::single::{Question, Waiting, first};
-use crate::accel::tree::{Tree, TriangleBlock, blocks};
+use super::single::{Question, first};
+use crate::accel::tree::{TriangleBlock, blocks};
 use crate::accel::wide::{Kind, Node, Reference};
 
 /// So many rays or fewer are faster alone.
@@ -91,15 +92,15 @@ impl<F: Float<8>> Interval<F> {
 }
 
 /// A bundle on its way. Where `COMMON`, all rays have one origin, and what depends on it is reckoned once.
-struct Walk<'a, M: Machine, const COMMON: bool> {
-    rays: &'a mut Rays,
+struct Walk<'a, 'b, M: Machine, const COMMON: bool> {
+    search: &'a mut Search<'b>,
     bundle: &'a Bundle,
     all: Interval<M::F8>,
     /// Beyond this nothing is of interest to any ray.
     end: f32,
 }
 
-impl<M: Machine, const COMMON: bool> Walk<'_, M, COMMON> {
+impl<M: Machine, const COMMON: bool> Walk<'_, '_, M, COMMON> {
     /// Which of the rays in `live` meet the box of a node's child, before their ends.
     #[inline(always)]
     fn in_box(&self, node: &Node, slot: usize, live: u64) -> u64 {
@@ -109,7 +110,7 @@ impl<M: Machine, const COMMON: bool> Walk<'_, M, COMMON> {
             [low[0][slot], low[1][slot], low[2][slot]],
             [high[0][slot], high[1][slot], high[2][slot]],
         ];
-        let rays = &*self.rays;
+        let rays = &*self.search.rays;
         let (mut near, mut far) = (
             pick(&corners, self.bundle.near),
             pick(&corners, self.bundle.far),
@@ -148,24 +149,33 @@ impl<M: Machine, const COMMON: bool> Walk<'_, M, COMMON> {
             pick(&corners, self.bundle.near),
             pick(&corners, self.bundle.far),
         );
-        let (to_near, to_far) = (
-            minus(near, self.all.to_near),
-            minus(far, self.all.to_far),
-        );
+        let (to_near, to_far) = (minus(near, self.all.to_near), minus(far, self.all.to_far));
         let (_, mut reached) = self.all.meets(to_near, to_far, self.end);
         if reached == 0 {
             return false;
         }
-        let (near, far) = if COMMON { (to_near, to_far) } else { (near, far) };
+        let (near, far) = if COMMON {
+            (to_near, to_far)
+        } else {
+            (near, far)
+        };
         let mut prepared = Prepared::EMPTY;
         for axis in 0..3 {
             near[axis].store(&mut prepared.near[axis]);
             far[axis].store(&mut prepared.far[axis]);
             let from = self.bundle.axes[axis];
-            let origin = if COMMON { self.rays.origin[from].0[0][0] } else { 0.0 };
+            let origin = if COMMON {
+                self.search.rays.origin[from].0[0][0]
+            } else {
+                0.0
+            };
             for (prepared, vertex) in prepared.vertices.iter_mut().zip(&block.vertices) {
                 let row = M::F8::load(&vertex[from]);
-                let row = if COMMON { row - M::F8::splat(origin) } else { row };
+                let row = if COMMON {
+                    row - M::F8::splat(origin)
+                } else {
+                    row
+                };
                 row.store(&mut prepared[axis]);
             }
         }
@@ -179,7 +189,7 @@ impl<M: Machine, const COMMON: bool> Walk<'_, M, COMMON> {
             }
             let bits = f32::from_bits(number.get());
             for group in 0..4 {
-                let members = (live & self.rays.live) >> (16 * group);
+                let members = (live & self.search.rays.live) >> (16 * group);
                 let members = members as u32 & 0xffff;
                 if members != 0 {
                     any |= self.triangle::<Q>(&prepared, lane, bits, group, members);
@@ -199,7 +209,7 @@ impl<M: Machine, const COMMON: bool> Walk<'_, M, COMMON> {
         group: usize,
         members: u32,
     ) -> bool {
-        let rays = &mut *self.rays;
+        let rays = &mut *self.search.rays;
         let [x, y, z] = self.bundle.axes;
         let [a, b, c] = &prepared.vertices;
         let mut vertices = [at(a, lane), at(b, lane), at(c, lane)];
@@ -277,21 +287,19 @@ fn at<F: Float<16>>(rows: &[[f32; 8]; 3], lane: usize) -> [F; 3] {
     spread([rows[0][lane], rows[1][lane], rows[2][lane]])
 }
 
-/// Follows the bundle's rays down the tree. `meshes` are the trees that instances lead to; both stacks have room for the
-/// whole way.
+/// Follows the bundle's rays down the tree. The stack has room for the whole way.
 #[inline(always)]
 pub(super) fn walk<M: Machine, Q: Question, const COMMON: bool>(
-    tree: &Tree,
-    meshes: &[Tree],
-    rays: &mut Rays,
+    search: &mut Search,
     bundle: &Bundle,
     stack: &mut [Waiting64],
-    stack_of_one: &mut [Waiting],
 ) {
-    let all = Interval::<M::F8>::new::<M::F16>(rays, bundle);
-    let end = rays.t.greatest::<M::F16>(bundle.members);
+    let accel = search.accel;
+    let tree = &accel.world;
+    let all = Interval::<M::F8>::new::<M::F16>(search.rays, bundle);
+    let end = search.rays.t.greatest::<M::F16>(bundle.members);
     let mut walk = Walk::<M, COMMON> {
-        rays,
+        search,
         bundle,
         all,
         end,
@@ -301,8 +309,7 @@ pub(super) fn walk<M: Machine, Q: Question, const COMMON: bool>(
     loop {
         match next.kind() {
             _ if live.count_ones() <= FEW => {
-                walk.rays
-                    .alone::<M, Q>(tree, meshes, next, live, stack_of_one);
+                walk.search.alone::<M, Q>(next, live);
             }
             Kind::Node => {
                 let Some(node) = tree.nodes.get(next.index()) else {
@@ -340,16 +347,15 @@ pub(super) fn walk<M: Machine, Q: Question, const COMMON: bool>(
                 for block in &tree.triangles[blocks(next)] {
                     any |= walk.triangles::<Q>(block, live);
                 }
-                if any && Q::ANY && walk.rays.live & bundle.members == 0 {
+                if any && Q::ANY && walk.search.rays.live & bundle.members == 0 {
                     return;
                 }
                 if any && !Q::ANY {
-                    walk.end = walk.rays.t.greatest::<M::F16>(bundle.members);
+                    walk.end = walk.search.rays.t.greatest::<M::F16>(bundle.members);
                 }
             }
             Kind::Spheres | Kind::Instances => {
-                walk.rays
-                    .alone::<M, Q>(tree, meshes, next, live, stack_of_one);
+                walk.search.alone::<M, Q>(next, live);
             }
         }
         loop {
@@ -358,7 +364,7 @@ pub(super) fn walk<M: Machine, Q: Question, const COMMON: bool>(
             }
             waiting -= 1;
             let top = stack[waiting];
-            live = top.live & walk.rays.live;
+            live = top.live & walk.search.rays.live;
             if top.near > walk.end || live == 0 {
                 continue;
             }

@@ -1,14 +1,10 @@
 //! Up to 64 rays side by side, and what they met so far; which of them go the same way.
 
 use super::float::{Float, Machine};
-use super::single::{self, Best, Question, Waiting};
-use crate::accel::primitive::Probe;
+use super::single::Best;
 use crate::accel::slab::RELATIVE_PAD;
-use crate::accel::tree::Tree;
-use crate::accel::wide::Reference;
 use crate::geometry::Hit;
 use crate::ray::Ray;
-use glam::Vec3;
 
 /// The most rays that go together.
 pub(super) const SIZE: usize = 64;
@@ -20,7 +16,6 @@ pub(super) struct Row(pub(super) [[f32; 16]; 4]);
 
 /// Rays and their nearest hits so far. Lanes past the last ray repeat it.
 pub(super) struct Rays {
-    rays: [Ray; SIZE],
     /// Which lanes are rays that still look for an answer.
     pub(super) live: u64,
     pub(super) origin: [Row; 3],
@@ -38,7 +33,12 @@ pub(super) struct Rays {
     pub(super) number: Row,
     pub(super) barycentric: [Row; 2],
     pub(super) common_origin: bool,
-    extent: f32,
+    /// Per axis, who goes to lesser coordinates.
+    backward: [u64; 3],
+    /// Per axis, whose longest it is, of equal ones the first.
+    longest: [u64; 3],
+    /// Who goes on after a surface that it went through.
+    alone: u64,
 }
 
 /// Rays that go into one octant and along one longest axis.
@@ -67,6 +67,15 @@ impl Row {
     #[inline(always)]
     pub(super) fn group<F: Float<16>>(&self, group: usize) -> F {
         F::load(&self.0[group & 3])
+    }
+
+    #[inline(always)]
+    fn set_half<M: Machine>(&mut self, group: usize, half: usize, new: M::F8) {
+        let (low, high) = self.0[group & 3].split_at_mut(8);
+        let eight = if half == 0 { low } else { high };
+        if let Ok(eight) = eight.try_into() {
+            new.store(eight);
+        }
     }
 
     /// Puts `new` into the lanes of `mask`.
@@ -98,6 +107,13 @@ impl Row {
     }
 }
 
+/// A ray's origin, direction and limits.
+#[inline(always)]
+fn floats(ray: &Ray) -> &[f32; 8] {
+    // SAFETY: `Ray` is `repr(C)` and begins with two `Vec3`, which are three floats each, and two floats.
+    unsafe { &*std::ptr::from_ref(ray).cast() }
+}
+
 /// The groups of three rows.
 #[inline(always)]
 pub(super) fn three<F: Float<16>>(rows: &[Row; 3], group: usize) -> [F; 3] {
@@ -111,7 +127,6 @@ pub(super) fn three<F: Float<16>>(rows: &[Row; 3], group: usize) -> [F; 3] {
 impl Rays {
     pub(super) fn new() -> Rays {
         Rays {
-            rays: [Ray::new(Vec3::ZERO, Vec3::X, 0.0, 0.0); SIZE],
             live: 0,
             origin: [Row::ZERO; 3],
             direction: [Row::ZERO; 3],
@@ -124,43 +139,59 @@ impl Rays {
             number: Row::ZERO,
             barycentric: [Row::ZERO; 2],
             common_origin: false,
-            extent: 0.0,
+            backward: [0; 3],
+            longest: [0; 3],
+            alone: 0,
         }
     }
 
     /// Takes up to 64 rays, at least one, that have met nothing yet, in a world of this extent.
     #[inline(always)]
     pub(super) fn fill<M: Machine>(&mut self, rays: &[Ray], extent: f32) {
+        let Some(last) = rays.last() else { return };
         let count = rays.len().min(SIZE);
-        self.rays[..count].copy_from_slice(&rays[..count]);
-        let last = self.rays[count.saturating_sub(1)];
-        self.rays[count..].fill(last);
         for group in 0..4 {
-            for lane in 0..16 {
-                let ray = &self.rays[16 * group + lane];
-                self.origin[0].0[group][lane] = ray.origin.x;
-                self.origin[1].0[group][lane] = ray.origin.y;
-                self.origin[2].0[group][lane] = ray.origin.z;
-                self.direction[0].0[group][lane] = ray.direction.x;
-                self.direction[1].0[group][lane] = ray.direction.y;
-                self.direction[2].0[group][lane] = ray.direction.z;
-                self.t_min.0[group][lane] = ray.t_min;
-                self.t.0[group][lane] = ray.t_max;
+            for half in 0..2 {
+                let from = 16 * group + 8 * half;
+                let mut eight = [floats(last); 8];
+                if let Some(rays) = rays.get(from..from + 8) {
+                    for (eighth, ray) in eight.iter_mut().zip(rays) {
+                        *eighth = floats(ray);
+                    }
+                } else {
+                    for (eighth, ray) in eight.iter_mut().zip(rays.iter().skip(from)) {
+                        *eighth = floats(ray);
+                    }
+                }
+                let [ox, oy, oz, dx, dy, dz, t_min, t_max] = M::transpose(eight);
+                self.origin[0].set_half::<M>(group, half, ox);
+                self.origin[1].set_half::<M>(group, half, oy);
+                self.origin[2].set_half::<M>(group, half, oz);
+                self.direction[0].set_half::<M>(group, half, dx);
+                self.direction[1].set_half::<M>(group, half, dy);
+                self.direction[2].set_half::<M>(group, half, dz);
+                self.t_min.set_half::<M>(group, half, t_min);
+                self.t.set_half::<M>(group, half, t_max);
             }
         }
         self.number = Row([[f32::from_bits(Best::NONE); 16]; 4]);
         self.live = u64::MAX >> (SIZE - count);
-        self.extent = extent;
-        self.prepare::<M>();
+        self.alone = 0;
+        for (lane, ray) in rays.iter().enumerate() {
+            self.alone |= u64::from(ray.after.is_some()) << (lane & 63);
+        }
+        self.prepare::<M>(extent);
     }
 
     /// What follows from origins and directions, as [`crate::accel::slab::Slab`] has it.
     #[inline(always)]
-    fn prepare<M: Machine>(&mut self) {
+    fn prepare<M: Machine>(&mut self, extent: f32) {
         let zero = M::F16::splat(0.0);
         let (least, greatest) = (M::F16::splat(f32::MIN), M::F16::splat(f32::MAX));
         let first = self.first(&self.origin);
         let mut same = 0xffff;
+        self.backward = [0; 3];
+        self.longest = [0; 3];
         for group in 0..4 {
             let origin = three::<M::F16>(&self.origin, group);
             let mut magnitude = zero;
@@ -168,88 +199,76 @@ impl Rays {
                 same &= origin[axis].eq(M::F16::splat(first[axis]));
                 magnitude = magnitude.max(origin[axis].max(zero - origin[axis]));
             }
-            let pad = M::F16::splat(RELATIVE_PAD) * (magnitude + M::F16::splat(self.extent));
+            let pad = M::F16::splat(RELATIVE_PAD) * (magnitude + M::F16::splat(extent));
+            let direction = three::<M::F16>(&self.direction, group);
+            let mut length = [zero; 3];
             for axis in 0..3 {
-                let direction = self.direction[axis].group::<M::F16>(group);
-                let inverse = (M::F16::splat(1.0) / direction).max(least).min(greatest);
+                let d = direction[axis];
+                let inverse = (M::F16::splat(1.0) / d).max(least).min(greatest);
                 let backward = inverse.lt(zero);
                 let (low, high) = (origin[axis] - pad, origin[axis] + pad);
                 M::F16::select(backward, low, high).store(&mut self.to_near[axis].0[group]);
                 M::F16::select(backward, high, low).store(&mut self.to_far[axis].0[group]);
                 inverse.store(&mut self.inverse[axis].0[group]);
-            }
-        }
-        self.common_origin = same == 0xffff;
-    }
-
-    /// Of `left` those that go the way of the first of them, made ready to go together.
-    #[inline(always)]
-    pub(super) fn bundle<M: Machine>(&mut self, left: u64) -> Bundle {
-        let first = left.trailing_zeros() as usize & 63;
-        let zero = M::F16::splat(0.0);
-        let mut members = 0;
-        let backward = |axis: usize| self.inverse[axis].get(first) < 0.0;
-        let signs = [backward(0), backward(1), backward(2)];
-        let near = signs.map(usize::from);
-        let longest = self.longest(first);
-        for group in 0..4 {
-            let mut same = 0xffff;
-            let mut length = [zero; 3];
-            for axis in 0..3 {
-                let d = self.direction[axis].group::<M::F16>(group);
+                self.backward[axis] |= u64::from(backward) << (16 * group);
                 length[axis] = d.max(zero - d);
-                let inverse = self.inverse[axis].group::<M::F16>(group);
-                let negative = inverse.lt(zero);
-                same &= if signs[axis] { negative } else { !negative };
             }
             let [x, y, z] = length;
             let x_longest = y.le(x) & z.le(x);
             let y_longest = z.le(y) & !x_longest;
-            same &= match longest {
-                0 => x_longest,
-                1 => y_longest,
-                _ => !(x_longest | y_longest),
-            };
-            members |= u64::from(same & 0xffff) << (16 * group);
+            self.longest[0] |= u64::from(x_longest) << (16 * group);
+            self.longest[1] |= u64::from(y_longest) << (16 * group);
+            let z_longest = !(x_longest | y_longest) & 0xffff;
+            self.longest[2] |= u64::from(z_longest) << (16 * group);
         }
-        let axes = [(longest + 1) % 3, (longest + 2) % 3, longest];
-        for group in 0..4 {
-            let d: M::F16 = self.direction[axes[2]].group(group);
-            for k in 0..2 {
-                let slope = self.direction[axes[k]].group::<M::F16>(group) / d;
-                slope.store(&mut self.slope[k].0[group]);
-            }
-        }
-        Bundle {
-            members: members & left,
-            near,
-            far: [near[0] ^ 1, near[1] ^ 1, near[2] ^ 1],
-            axes,
-        }
+        self.common_origin = same == 0xffff;
     }
 
-    /// The longest axis of a ray's direction, of equal ones the first.
+    /// Of `left`, above zero, those that go the way of the first of them.
     #[inline(always)]
-    fn longest(&self, lane: usize) -> usize {
-        let [x, y, z] = [0, 1, 2].map(|axis| self.direction[axis].get(lane).abs());
-        if x >= y && x >= z {
+    pub(super) fn of_one_class(&self, left: u64) -> Bundle {
+        let first = left & left.wrapping_neg();
+        let longest = if self.longest[0] & first != 0 {
             0
-        } else if y >= z {
+        } else if self.longest[1] & first != 0 {
             1
         } else {
             2
+        };
+        let mut members = left & self.longest[longest];
+        let mut near = [0; 3];
+        for axis in 0..3 {
+            let backward = self.backward[axis];
+            near[axis] = usize::from(backward & first != 0);
+            members &= if near[axis] == 1 { backward } else { !backward };
+        }
+        // What goes on after a surface has a rule of its own for equal distances.
+        if self.alone != 0 {
+            members = if self.alone & first != 0 {
+                first
+            } else {
+                members & !self.alone
+            };
+        }
+        Bundle {
+            members,
+            near,
+            far: [near[0] ^ 1, near[1] ^ 1, near[2] ^ 1],
+            axes: [(longest + 1) % 3, (longest + 2) % 3, longest],
         }
     }
 
-    /// What three rows have for the first ray.
+    /// Reckons the slopes of a bundle. Whether its rays differ so little in direction that they meet much the same boxes.
     #[inline(always)]
-    pub(super) fn first(&self, rows: &[Row; 3]) -> [f32; 3] {
-        [rows[0].0[0][0], rows[1].0[0][0], rows[2].0[0][0]]
-    }
-
-    /// Whether rays differ so little in direction that they meet much the same boxes.
-    #[inline(always)]
-    pub(super) fn is_coherent<M: Machine>(&self, bundle: &Bundle) -> bool {
+    pub(super) fn make_ready<M: Machine>(&mut self, bundle: &mut Bundle) -> bool {
+        let [x, y, z] = bundle.axes;
+        for group in 0..4 {
+            let per_unit: M::F16 = self.inverse[z].group(group);
+            let along_x: M::F16 = self.direction[x].group(group);
+            let along_y: M::F16 = self.direction[y].group(group);
+            (along_x * per_unit).store(&mut self.slope[0].0[group]);
+            (along_y * per_unit).store(&mut self.slope[1].0[group]);
+        }
         let mut spread = 0.0;
         for slope in &self.slope {
             let greatest = slope.greatest::<M::F16>(bundle.members);
@@ -258,9 +277,15 @@ impl Rays {
         spread < WIDEST
     }
 
+    /// What three rows have for the first ray.
+    #[inline(always)]
+    pub(super) fn first(&self, rows: &[Row; 3]) -> [f32; 3] {
+        [rows[0].0[0][0], rows[1].0[0][0], rows[2].0[0][0]]
+    }
+
     /// What a ray met so far.
     #[inline(always)]
-    fn best(&self, lane: usize) -> Best {
+    pub(super) fn best(&self, lane: usize) -> Best {
         Best {
             t: self.t.get(lane),
             number: self.number.get(lane).to_bits(),
@@ -269,7 +294,7 @@ impl Rays {
     }
 
     #[inline(always)]
-    fn set_best(&mut self, lane: usize, best: &Best) {
+    pub(super) fn set_best(&mut self, lane: usize, best: &Best) {
         self.t.set(lane, best.t);
         self.number.set(lane, f32::from_bits(best.number));
         self.barycentric[0].set(lane, best.barycentric[0]);
@@ -281,46 +306,6 @@ impl Rays {
         let mut best = self.best(lane);
         best.offer(hit.t, hit.primitive, hit.barycentric);
         self.set_best(lane, &best);
-    }
-
-    /// What a ray met.
-    #[inline(always)]
-    pub(super) fn hit(&self, lane: usize) -> Option<Hit> {
-        self.best(lane).hit()
-    }
-
-    /// Whether a ray goes on after a surface that it went through, so that equal distances need their own care.
-    #[inline(always)]
-    pub(super) fn goes_on(&self) -> u64 {
-        let mut lanes = 0;
-        for (lane, ray) in self.rays.iter().enumerate() {
-            lanes |= u64::from(ray.after.is_some()) << lane;
-        }
-        lanes
-    }
-
-    /// Sends each ray of `live` on alone, from `start` down.
-    #[inline(always)]
-    pub(super) fn alone<M: Machine, Q: Question>(
-        &mut self,
-        tree: &Tree,
-        meshes: &[Tree],
-        start: Reference,
-        live: u64,
-        stack: &mut [Waiting],
-    ) {
-        let mut left = live;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize & 63;
-            left &= left - 1;
-            let probe = Probe::new(self.rays[lane], self.extent);
-            let mut best = self.best(lane);
-            if single::walk::<M, Q, true>(tree, meshes, start, 0, &probe, &mut best, stack) {
-                self.live &= !(1 << lane);
-            } else if !Q::ANY {
-                self.set_best(lane, &best);
-            }
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The twin without any intrinsics: arrays, which compilers vectorise as far as they can on any machine.
 
-use super::float::{Float, Machine};
+use super::float::{Float, Machine, Task};
 use std::ops::{Add, Div, Mul, Sub};
 
 pub(super) struct Scalar;
@@ -12,8 +12,23 @@ impl Machine for Scalar {
     type F8 = Array<8>;
     type F16 = Array<16>;
 
+    fn run<T: Task>(task: T) -> T::Output {
+        task.run::<Scalar>()
+    }
+
     #[inline(always)]
     fn prefetch<T>(_: &T) {}
+
+    #[inline(always)]
+    fn transpose(rows: [&[f32; 8]; 8]) -> [Array<8>; 8] {
+        let mut columns = [Array([0.0; 8]); 8];
+        for (i, row) in rows.into_iter().enumerate() {
+            for (column, &x) in columns.iter_mut().zip(row) {
+                column.0[i] = x;
+            }
+        }
+        columns
+    }
 }
 
 impl<const N: usize> Array<N> {

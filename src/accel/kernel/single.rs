@@ -166,6 +166,28 @@ pub(super) fn first(mask: u32) -> usize {
     mask.trailing_zeros() as usize
 }
 
+/// A child of a node, as it waits.
+#[inline(always)]
+fn at(node: &Node, near: &[f32; 8], slot: usize) -> Waiting {
+    Waiting {
+        reference: node.children[slot & 7],
+        near: near[slot & 7],
+    }
+}
+
+/// Asks for what a reference leads to, of which the ray will need all.
+#[inline(always)]
+fn prefetch<M: Machine>(tree: &Tree, reference: Reference) {
+    if reference.kind() == Kind::Node
+        && let Some(node) = tree.nodes.get(reference.index())
+    {
+        M::prefetch(&node.corners[0][0]);
+        M::prefetch(&node.corners[0][2]);
+        M::prefetch(&node.corners[1][1]);
+        M::prefetch(&node.children);
+    }
+}
+
 /// Follows the ray from `start` down; hits go to `best`. True at once where the question is [`Any`] and one is opaque.
 ///
 /// `meshes` are the trees that instances lead to, `first_number` what the numbers of a mesh start from. `stack` has room
@@ -199,28 +221,32 @@ pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
                     }
                     let mut near = [0.0; 8];
                     enter.store(&mut near);
-                    let bottom = waiting;
-                    let mut add = nearest;
-                    loop {
-                        let new = Waiting {
-                            reference: node.children[add & 7],
-                            near: near[add & 7],
-                        };
-                        // Nearest on top; where any hit will do, in whatever order.
-                        let mut at = waiting;
-                        if !Q::ANY {
-                            while at > bottom && stack[at - 1].near < new.near {
-                                stack[at] = stack[at - 1];
-                                at -= 1;
-                            }
-                        }
-                        stack[at] = new;
-                        waiting += 1;
-                        if met == 0 {
-                            break;
-                        }
-                        add = first(met);
+                    let other = first(met);
+                    met &= met - 1;
+                    let pair = [at(node, &near, nearest), at(node, &near, other)];
+                    let swap = usize::from(pair[1].near < pair[0].near);
+                    next = pair[swap].reference;
+                    stack[waiting] = pair[swap ^ 1];
+                    waiting += 1;
+                    prefetch::<M>(tree, pair[swap ^ 1].reference);
+                    if met == 0 {
+                        continue;
+                    }
+                    // More than two: nearest on top; where any hit will do, in whatever order.
+                    let bottom = waiting - 1;
+                    stack[waiting] = pair[swap];
+                    waiting += 1;
+                    while met != 0 {
+                        let new = at(node, &near, first(met));
                         met &= met - 1;
+                        prefetch::<M>(tree, new.reference);
+                        let mut to = waiting;
+                        while !Q::ANY && to > bottom && stack[to - 1].near < new.near {
+                            stack[to] = stack[to - 1];
+                            to -= 1;
+                        }
+                        stack[to] = new;
+                        waiting += 1;
                     }
                     waiting -= 1;
                     next = stack[waiting].reference;
