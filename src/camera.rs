@@ -160,13 +160,39 @@ impl View {
     /// The camera ray through the continuous picture position (`x`, `y`), in pixels from the upper left corner
     /// (paper, eq. 3 to 6). Reckoned in `f64`, since neighbouring directions differ in their last bits.
     pub fn primary_ray(&self, x: f64, y: f64) -> Ray {
-        let [half_width, half_height] = self.half_size;
-        let across =
-            self.u * ((x - half_width) / half_width) + self.v * ((half_height - y) / half_height);
+        self.ray_through(self.across(x) + self.down(y))
+    }
+
+    /// The camera rays through every crossing of the columns `xs` with the rows `ys`, row after row, behind what
+    /// `rays` has: each is that of [`View::primary_ray`].
+    pub fn primary_rays(&self, xs: &[f64], ys: &[f64], rays: &mut Vec<Ray>) {
+        let columns: Vec<DVec3> = xs.iter().map(|&x| self.across(x)).collect();
+        for &y in ys {
+            let down = self.down(y);
+            let through = |&across: &DVec3| self.ray_through(across + down);
+            rays.extend(columns.iter().map(through));
+        }
+    }
+
+    /// From the middle of the picture to a column.
+    fn across(&self, x: f64) -> DVec3 {
+        let [half_width, _] = self.half_size;
+        self.u * ((x - half_width) / half_width)
+    }
+
+    /// From the middle of the picture to a row.
+    fn down(&self, y: f64) -> DVec3 {
+        let [_, half_height] = self.half_size;
+        self.v * ((half_height - y) / half_height)
+    }
+
+    /// The ray through what lies at `offset` from the middle of the picture.
+    #[inline]
+    fn ray_through(&self, offset: DVec3) -> Ray {
         let position = self.camera.position;
         let (origin, d) = match self.camera.projection {
-            Projection::Perspective { .. } => (position, (self.w + across).normalize()),
-            Projection::Orthographic { .. } => (position + across, self.w),
+            Projection::Perspective { .. } => (position, (self.w + offset).normalize()),
+            Projection::Orthographic { .. } => (position + offset, self.w),
         };
         // A clip plane at depth z is met at t = z / cos(angle to the axis).
         let per_depth = match self.camera.clip {
@@ -182,6 +208,7 @@ impl View {
     }
 
     /// The distance of the point `ray(t)` along the camera's axis: what an EXR's `Z` holds.
+    #[inline]
     pub fn depth(&self, ray: &Ray, t: f32) -> f32 {
         let start = (ray.origin.as_dvec3() - self.camera.position).dot(self.w);
         (start + f64::from(t) * ray.direction.as_dvec3().dot(self.w)) as f32

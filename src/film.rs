@@ -94,6 +94,11 @@ pub struct Statistics {
     pub lost_in_layers: u64,
     /// From the first ray to the last.
     pub time: Duration,
+    /// What the tiles took in which search was measured: one of
+    /// [`crate::render::WATCHED`], since reading clocks takes time, too.
+    pub watched: Duration,
+    /// What search took of that.
+    pub search: Duration,
 }
 
 impl Statistics {
@@ -102,13 +107,21 @@ impl Statistics {
         self.camera_rays + self.transparent_rays + self.shadow_rays + self.mirror_rays
     }
 
-    /// The counts of both; the time stays.
+    /// The counts of both, and what was measured; the time stays.
     pub fn add_counts(&mut self, other: &Statistics) {
         self.camera_rays += other.camera_rays;
         self.transparent_rays += other.transparent_rays;
         self.shadow_rays += other.shadow_rays;
         self.mirror_rays += other.mirror_rays;
         self.lost_in_layers += other.lost_in_layers;
+        self.watched += other.watched;
+        self.search += other.search;
+    }
+
+    /// The share of the time that went into search, 0..1: the picture's rays a second are this share of those of search
+    /// alone.
+    pub fn search_share(&self) -> f64 {
+        self.search.as_secs_f64() / self.watched.as_secs_f64().max(1e-9)
     }
 }
 

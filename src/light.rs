@@ -70,24 +70,68 @@ pub struct Illumination {
 
 impl Light {
     /// What the light sends to `point`; `None` where that is nothing: outside a cone, past the range, at the light.
+    #[inline]
     pub fn illuminate(&self, point: Vec3) -> Option<Illumination> {
-        let emitted = self.color * self.intensity;
+        Lamp::of(self).illuminate(point)
+    }
+}
+
+/// A light made ready for many points: what is the same for all of them is reckoned once.
+#[derive(Clone, Debug)]
+pub struct Lamp {
+    kind: LightKind,
+    falloff: Falloff,
+    range: Option<f32>,
+    emitted: Rgb,
+    cone: Cone,
+}
+
+impl Lamp {
+    /// A light made ready.
+    pub fn of(light: &Light) -> Lamp {
+        let cone = match light.kind {
+            LightKind::Spot {
+                inner_angle,
+                outer_angle,
+                ..
+            } => Cone::new(inner_angle, outer_angle),
+            _ => Cone::default(),
+        };
+        Lamp {
+            kind: light.kind,
+            falloff: light.falloff,
+            range: light.range,
+            emitted: light.color * light.intensity,
+            cone,
+        }
+    }
+
+    /// Where its light comes from; `None` where that is no point.
+    #[inline]
+    pub fn position(&self) -> Option<Vec3> {
+        match self.kind {
+            LightKind::Point { position } | LightKind::Spot { position, .. } => Some(position),
+            LightKind::Directional { .. } => None,
+        }
+    }
+
+    /// [`Light::illuminate`].
+    #[inline]
+    pub fn illuminate(&self, point: Vec3) -> Option<Illumination> {
         match self.kind {
             LightKind::Directional { direction } => Some(Illumination {
                 to_light: -direction,
                 distance: f32::INFINITY,
-                irradiance: emitted,
+                irradiance: self.emitted,
             }),
-            LightKind::Point { position } => self.illuminate_from(position, point, emitted),
+            LightKind::Point { position } => self.illuminate_from(position, point),
             LightKind::Spot {
                 position,
                 direction,
-                inner_angle,
-                outer_angle,
+                ..
             } => {
-                let light = self.illuminate_from(position, point, emitted)?;
-                let cone =
-                    cone_attenuation(direction.dot(-light.to_light), inner_angle, outer_angle);
+                let light = self.illuminate_from(position, point)?;
+                let cone = self.cone.attenuation(direction.dot(-light.to_light));
                 (cone > 0.0).then_some(Illumination {
                     irradiance: light.irradiance * cone,
                     ..light
@@ -96,7 +140,8 @@ impl Light {
         }
     }
 
-    fn illuminate_from(&self, position: Vec3, point: Vec3, emitted: Rgb) -> Option<Illumination> {
+    #[inline]
+    fn illuminate_from(&self, position: Vec3, point: Vec3) -> Option<Illumination> {
         let toward = position - point;
         let distance = toward.length();
         if distance == 0.0 {
@@ -113,18 +158,32 @@ impl Light {
         (attenuation > 0.0).then_some(Illumination {
             to_light: toward / distance,
             distance,
-            irradiance: emitted * attenuation,
+            irradiance: self.emitted * attenuation,
         })
     }
 }
 
-/// The share of light inside a spot's cone: 1 to the inner half-angle, 0 from the outer one on, between them the square
-/// of a ramp in the cosine (KHR_lights_punctual, "Inner and Outer Cone Angles").
-fn cone_attenuation(cos_angle: f32, inner_angle: f32, outer_angle: f32) -> f32 {
-    let cos_outer = libm::cosf(outer_angle);
-    let scale = 1.0 / (libm::cosf(inner_angle) - cos_outer).max(0.001);
-    let ramp = ((cos_angle - cos_outer) * scale).clamp(0.0, 1.0);
-    ramp * ramp
+/// A spot's cone (KHR_lights_punctual, "Inner and Outer Cone Angles").
+#[derive(Clone, Copy, Debug, Default)]
+struct Cone {
+    cos_outer: f32,
+    /// The ramp's rise for each unit of the cosine.
+    scale: f32,
+}
+
+impl Cone {
+    fn new(inner_angle: f32, outer_angle: f32) -> Cone {
+        let cos_outer = libm::cosf(outer_angle);
+        let scale = 1.0 / (libm::cosf(inner_angle) - cos_outer).max(0.001);
+        Cone { cos_outer, scale }
+    }
+
+    /// The share of light inside: 1 to the inner half-angle, 0 from the outer one on, between them the square of a
+    /// ramp in the cosine.
+    fn attenuation(&self, cos_angle: f32) -> f32 {
+        let ramp = ((cos_angle - self.cos_outer) * self.scale).clamp(0.0, 1.0);
+        ramp * ramp
+    }
 }
 
 /// `max(min(1 - (distance / range)^4, 1), 0)` (KHR_lights_punctual, "Range Property").

@@ -31,7 +31,9 @@ impl Mesh {
     }
 
     fn corners(&self, corners: &[u32; 3]) -> Triangle {
-        Triangle(corners.map(|i| self.positions.get(i as usize).copied().unwrap_or_default()))
+        let at = |i: u32| self.positions.get(i as usize).copied().unwrap_or_default();
+        let [a, b, c] = *corners;
+        Triangle([at(a), at(b), at(c)])
     }
 
     /// The smallest box around the triangles' vertices.

@@ -7,12 +7,16 @@ pub use settings::{Settings, SettingsError};
 use crate::accel::Accel;
 use crate::camera::View;
 use crate::film::{BEAUTY, Combine, DEPTH, Film, Layer};
+use crate::ray::Ray;
 use crate::scene::Scene;
 use crate::whitted::{Rules, Sample, Tracer};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
+
+/// Of so many tiles one has its search measured: a number that no row of tiles is likely to be a multiple of.
+pub const WATCHED: usize = 13;
 
 /// How far a render is, and whether it should go on: shared with whoever watches.
 #[derive(Debug, Default)]
@@ -53,16 +57,26 @@ pub fn render(scene: &Scene, accel: &Accel, settings: &Settings, progress: &Prog
         max_depth: settings.max_depth,
     };
     let film = Mutex::new(empty_film(scene, settings));
-    let tracer = || Tracer::new(scene, accel, rules);
-    tiles.into_par_iter().for_each_init(tracer, |tracer, tile| {
+    let painter = || Painter {
+        tracer: Tracer::new(scene, accel, rules),
+        view: &view,
+        settings,
+        columns: Vec::new(),
+        rows: Vec::new(),
+        rays: Vec::new(),
+        samples: Vec::new(),
+        pixels: Vec::new(),
+    };
+    let tiles = tiles.into_par_iter().enumerate();
+    tiles.for_each_init(painter, |painter, (number, tile)| {
         if progress.is_cancelled() {
             return;
         }
-        let pixels = render_tile(tracer, &view, settings, &tile);
+        painter.paint(&tile, number % WATCHED == 0);
         let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
-        tile.put(&pixels, &mut film);
+        tile.put(&painter.pixels, &mut film);
         film.statistics
-            .add_counts(&std::mem::take(&mut tracer.statistics));
+            .add_counts(&std::mem::take(&mut painter.tracer.statistics));
         progress.done.fetch_add(1, Relaxed);
     });
     let mut film = film.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -116,33 +130,54 @@ impl Settings {
     }
 }
 
-/// The pixels of a tile, row by row: of each sample position a batch of rays for the whole tile.
-fn render_tile(tracer: &mut Tracer, view: &View, settings: &Settings, tile: &Tile) -> Vec<Sample> {
-    let pixels: Vec<(u32, u32)> = tile.pixels().collect();
-    let mut combined: Vec<Sample> = Vec::with_capacity(pixels.len());
-    let mut samples = Vec::with_capacity(pixels.len());
-    for sample in 0..settings.grid.samples() {
-        let ray = |&(i, j): &(u32, u32)| {
-            let (x, y) = settings.grid.position(i, j, sample);
-            view.primary_ray(x, y)
-        };
-        let rays: Vec<_> = pixels.iter().map(ray).collect();
-        tracer.trace(view, &rays, &mut samples);
-        if sample == 0 {
-            combined.extend_from_slice(&samples);
-        } else {
-            combined
-                .iter_mut()
-                .zip(&samples)
-                .for_each(|(pixel, sample)| add(pixel, sample));
+/// Who renders tile after tile, in the same memory.
+struct Painter<'a> {
+    tracer: Tracer<'a>,
+    view: &'a View,
+    settings: &'a Settings,
+    columns: Vec<f64>,
+    rows: Vec<f64>,
+    rays: Vec<Ray>,
+    samples: Vec<Sample>,
+    /// The last tile's, row by row.
+    pixels: Vec<Sample>,
+}
+
+impl Painter<'_> {
+    /// Renders a tile: of each sample position a batch of rays for all of it.
+    fn paint(&mut self, tile: &Tile, watched: bool) {
+        let start = Instant::now();
+        self.tracer.watched = watched;
+        let grid = self.settings.grid;
+        for sample in 0..grid.samples() {
+            let column = |i| grid.position(i, tile.top, sample).0;
+            let row = |j| grid.position(tile.left, j, sample).1;
+            self.columns.clear();
+            self.columns
+                .extend((tile.left..tile.left + tile.width).map(column));
+            self.rows.clear();
+            self.rows
+                .extend((tile.top..tile.top + tile.height).map(row));
+            self.rays.clear();
+            self.view
+                .primary_rays(&self.columns, &self.rows, &mut self.rays);
+            self.tracer.trace(self.view, &self.rays, &mut self.samples);
+            if sample == 0 {
+                std::mem::swap(&mut self.pixels, &mut self.samples);
+            } else {
+                let pixels = self.pixels.iter_mut().zip(&self.samples);
+                pixels.for_each(|(pixel, sample)| add(pixel, sample));
+            }
+        }
+        let share = 1.0 / grid.samples() as f32;
+        for pixel in &mut self.pixels {
+            pixel.color *= share;
+            pixel.alpha *= share;
+        }
+        if watched {
+            self.tracer.statistics.watched += start.elapsed();
         }
     }
-    let share = 1.0 / settings.grid.samples() as f32;
-    for pixel in &mut combined {
-        pixel.color *= share;
-        pixel.alpha *= share;
-    }
-    combined
 }
 
 /// Light is summed (and becomes a mean), depth is the nearest.
@@ -153,33 +188,26 @@ fn add(pixel: &mut Sample, sample: &Sample) {
 }
 
 impl Tile {
-    fn pixels(&self) -> impl Iterator<Item = (u32, u32)> {
-        let Tile {
-            left,
-            top,
-            width,
-            height,
-        } = *self;
-        (top..top + height).flat_map(move |j| (left..left + width).map(move |i| (i, j)))
-    }
-
     /// Writes the tile's pixels into the film.
     fn put(&self, pixels: &[Sample], film: &mut Film) {
-        let width = film.width as usize;
+        let (left, width) = (self.left as usize, self.width as usize);
         for layer in &mut film.layers {
             let channels = layer.channels.len();
-            for ((i, j), pixel) in self.pixels().zip(pixels) {
-                let Sample {
-                    color,
-                    alpha,
-                    depth,
-                } = *pixel;
-                let values = match layer.combine {
-                    Combine::Mean => [color.r, color.g, color.b, alpha],
-                    Combine::Nearest => [depth; 4],
-                };
-                let at = (j as usize * width + i as usize) * channels;
-                layer.values[at..at + channels].copy_from_slice(&values[..channels]);
+            let rows = layer
+                .values
+                .chunks_exact_mut(film.width as usize * channels);
+            let rows = rows.skip(self.top as usize).zip(pixels.chunks_exact(width));
+            for (row, pixels) in rows {
+                let row = &mut row[left * channels..(left + width) * channels];
+                for (values, pixel) in row.chunks_exact_mut(channels).zip(pixels) {
+                    let color = pixel.color;
+                    match layer.combine {
+                        Combine::Mean => {
+                            values.copy_from_slice(&[color.r, color.g, color.b, pixel.alpha]);
+                        }
+                        Combine::Nearest => values.fill(pixel.depth),
+                    }
+                }
             }
         }
     }

@@ -6,15 +6,16 @@ mod layout;
 mod surface;
 
 pub use error::SceneError;
-pub use layout::{InstanceSpace, PlacedInstance, Primitive};
-pub use surface::Surface;
+pub use layout::{InstanceSpace, PlacedInstance, Primitive, Recent};
+pub use surface::{Answer, Surface};
 
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::geometry::{Bounds, Plane, Sphere};
-use crate::light::Light;
+use crate::light::{Lamp, Light};
 use crate::material::Material;
 use crate::mesh::Mesh;
+use crate::shade::Reflectance;
 use crate::texture::Texture;
 use glam::DAffine3;
 
@@ -121,6 +122,9 @@ pub struct Scene {
     meshes: Vec<Mesh>,
     instances: Vec<PlacedInstance>,
     primitive_count: u32,
+    /// Of each material that answers light the same way everywhere, how.
+    plain: Vec<Option<Reflectance>>,
+    lamps: Vec<Lamp>,
 }
 
 impl Scene {
@@ -144,6 +148,8 @@ impl Scene {
         check::check_placed(&meshes, &instances)?;
         // Last: a camera may have been framed to what was found wrong above.
         check::check_camera(&description.camera)?;
+        let plain = description.materials.iter().map(surface::plain).collect();
+        let lamps = description.lights.iter().map(Lamp::of).collect();
         Ok(Scene {
             camera: description.camera,
             background: description.background,
@@ -156,6 +162,8 @@ impl Scene {
             meshes,
             instances,
             primitive_count,
+            plain,
+            lamps,
         })
     }
 
@@ -182,6 +190,11 @@ impl Scene {
     /// The lights, in the order in which their light is added.
     pub fn lights(&self) -> &[Light] {
         &self.lights
+    }
+
+    /// The same lights, made ready.
+    pub fn lamps(&self) -> &[Lamp] {
+        &self.lamps
     }
 
     /// The analytic spheres: primitives 0 to their number.

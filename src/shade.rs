@@ -45,6 +45,7 @@ impl Shading {
     /// What one light adds at a point: zero where it stands behind the surface.
     ///
     /// `n`, `l`, `v` are unit vectors that point away from the surface; `e` is the light's irradiance.
+    #[inline]
     pub fn reflected(self, surface: &Reflectance, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
         match self {
             Shading::Flat => Rgb::BLACK,

@@ -5,15 +5,20 @@
 //! then all that goes on, off mirrors and through transparent surfaces. What a sample gets does not depend on what else
 //! is in its batch.
 
+mod batch;
+
 use crate::accel::Accel;
 use crate::camera::View;
 use crate::color::Rgb;
 use crate::film::{FAR_AWAY, Statistics};
 use crate::geometry::Hit;
-use crate::light::{Illumination, Light};
+use crate::light::Lamp;
 use crate::ray::Ray;
-use crate::scene::{Scene, Shown, Surface};
+use crate::scene::{Recent, Scene, Shown, Surface};
 use crate::shade::{Shading, flat, mirror};
+use batch::{Arrival, Path, Paths, Promised, ShadowRays};
+use std::mem::{swap, take};
+use std::time::{Duration, Instant};
 
 /// The most transparent layers a ray goes through.
 pub const MAX_LAYERS: u32 = 64;
@@ -46,109 +51,88 @@ pub struct Tracer<'a> {
     rules: Rules,
     /// Rays by kind, since the beginning.
     pub statistics: Statistics,
-    paths: Vec<Path>,
-    rays: Vec<Ray>,
+    /// Whether the time that search takes is measured.
+    pub watched: bool,
+    paths: Paths,
+    /// What goes on from where `paths` end.
+    further: Paths,
     hits: Vec<Option<Hit>>,
+    arrivals: Vec<Arrival<'a>>,
+    shadow_rays: [ShadowRays; 2],
     occluded: Vec<bool>,
-}
-
-/// A ray under way, and what it carries to its sample.
-#[derive(Clone, Copy, Debug)]
-struct Path {
-    ray: Ray,
-    /// Which sample of the batch.
-    sample: usize,
-    /// The share of its light that reaches the camera.
-    energy: Rgb,
-    /// Mirrors so far; 0 for what the camera sees directly.
-    bounces: u32,
-    /// Transparent layers so far.
-    layers: u32,
-}
-
-/// A path at a surface.
-struct Arrival {
-    path: Path,
-    hit: Hit,
-    surface: Surface,
-}
-
-/// A shadow ray's purpose.
-struct Lit {
-    arrival: usize,
-    light: Illumination,
+    recent: Recent,
 }
 
 impl<'a> Tracer<'a> {
     /// A tracer without anything under way.
     pub fn new(scene: &'a Scene, accel: &'a Accel, rules: Rules) -> Tracer<'a> {
-        let (paths, rays, hits, occluded) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         Tracer {
             scene,
             accel,
             rules,
             statistics: Statistics::default(),
-            paths,
-            rays,
-            hits,
-            occluded,
+            watched: false,
+            paths: Paths::default(),
+            further: Paths::default(),
+            hits: Vec::new(),
+            arrivals: Vec::new(),
+            shadow_rays: Default::default(),
+            occluded: Vec::new(),
+            recent: Recent::default(),
         }
     }
 
     /// The light along each camera ray of `view`, into `samples`, which is cleared first.
     pub fn trace(&mut self, view: &View, camera_rays: &[Ray], samples: &mut Vec<Sample>) {
-        samples.clear();
-        samples.resize(
-            camera_rays.len(),
-            Sample {
-                color: Rgb::BLACK,
-                alpha: 1.0,
-                depth: FAR_AWAY,
-            },
-        );
-        self.statistics.camera_rays += camera_rays.len() as u64;
-        let from_camera = |(sample, &ray)| Path {
-            ray,
-            sample,
-            energy: Rgb::WHITE,
-            bounces: 0,
-            layers: 0,
+        let nothing = Sample {
+            color: Rgb::BLACK,
+            alpha: 1.0,
+            depth: FAR_AWAY,
         };
-        self.paths
-            .extend(camera_rays.iter().enumerate().map(from_camera));
-        while !self.paths.is_empty() {
-            let arrivals = self.arrive(samples);
+        samples.clear();
+        samples.resize(camera_rays.len(), nothing);
+        self.statistics.camera_rays += camera_rays.len() as u64;
+        self.paths.start(camera_rays);
+        while !self.paths.rays.is_empty() {
+            self.arrive(samples);
+            let arrivals = take(&mut self.arrivals);
             for arrival in &arrivals {
-                note_depth(view, arrival, samples);
-                samples[arrival.path.sample].color += self.own_light(arrival);
+                self.note_depth(view, arrival, samples);
+                samples[arrival.sample as usize].color += self.own_light(arrival);
             }
             if self.rules.shading != Shading::Flat {
-                for light in self.scene.lights() {
-                    self.add_light(light, &arrivals, samples);
+                for lamp in self.scene.lamps() {
+                    self.add_light(lamp, &arrivals, samples);
                 }
             }
             for arrival in &arrivals {
                 self.reflect(arrival);
                 self.pass_through(arrival);
             }
+            self.arrivals = arrivals;
+            self.paths.clear();
+            swap(&mut self.paths, &mut self.further);
         }
     }
 
     /// Follows every path to the surface it meets; what meets none sees the background.
-    fn arrive(&mut self, samples: &mut [Sample]) -> Vec<Arrival> {
-        self.rays.clear();
-        self.rays.extend(self.paths.iter().map(|path| path.ray));
-        self.accel.intersect_all(&self.rays, &mut self.hits);
+    fn arrive(&mut self, samples: &mut [Sample]) {
+        let start = self.watched.then(Instant::now);
+        self.accel.intersect_all(&self.paths.rays, &mut self.hits);
+        self.statistics.search += since(start);
         let background = self.scene.background();
-        let mut arrivals = Vec::with_capacity(self.paths.len());
-        for (path, hit) in self.paths.drain(..).zip(&self.hits) {
-            let sample = &mut samples[path.sample];
+        self.arrivals.clear();
+        let paths = self.paths.rays.iter().zip(&self.paths.paths);
+        for (index, ((ray, path), hit)) in (0..).zip(paths.zip(&self.hits)) {
+            let sample = &mut samples[path.sample as usize];
             match hit {
                 Some(hit) => {
-                    let surface = self.scene.surface(&path.ray, hit);
-                    arrivals.push(Arrival {
-                        path,
-                        hit: *hit,
+                    let surface = self.scene.surface_near(ray, hit, &mut self.recent);
+                    self.arrivals.push(Arrival {
+                        path: index,
+                        sample: path.sample,
+                        weight: path.energy * surface.coverage,
+                        v: -ray.direction,
                         surface,
                     });
                 }
@@ -160,67 +144,101 @@ impl<'a> Tracer<'a> {
                 None => sample.color += path.energy * background.color,
             }
         }
-        arrivals
+    }
+
+    /// The depth of a camera ray is that of the first surface that is there at all.
+    fn note_depth(&self, view: &View, arrival: &Arrival, samples: &mut [Sample]) {
+        let sample = &mut samples[arrival.sample as usize];
+        if sample.depth != FAR_AWAY || arrival.surface.coverage == 0.0 {
+            return;
+        }
+        let index = arrival.path as usize;
+        if let (0, Some(hit)) = (self.paths.paths[index].bounces, &self.hits[index]) {
+            sample.depth = view.depth(&self.paths.rays[index], hit.t);
+        }
     }
 
     /// Emission and ambient light, or the flat colour.
     fn own_light(&self, arrival: &Arrival) -> Rgb {
-        let surface = &arrival.surface.reflectance;
+        let surface = &*arrival.surface.reflectance;
         let light = match self.rules.shading {
             Shading::Flat => flat::color(surface),
             _ => surface.emission + surface.ambient * self.scene.ambient(),
         };
-        arrival.weight() * light
+        arrival.weight * light
     }
 
     /// Adds what one light sends to every surface that it reaches.
-    fn add_light(&mut self, light: &Light, arrivals: &[Arrival], samples: &mut [Sample]) {
-        self.rays.clear();
-        let mut lit = Vec::with_capacity(arrivals.len());
-        for (index, arrival) in arrivals.iter().enumerate() {
-            let Some(illumination) = arrival.faces(light) else {
+    fn add_light(&mut self, lamp: &Lamp, arrivals: &[Arrival], samples: &mut [Sample]) {
+        let [from_light, from_surfaces] = &mut self.shadow_rays;
+        for arrival in arrivals {
+            let Some(light) = arrival.faces(lamp) else {
                 continue;
             };
-            self.rays.push(arrival.shadow_ray(&illumination));
-            lit.push(Lit {
-                arrival: index,
-                light: illumination,
-            });
+            let surface = &arrival.surface;
+            let reflected = self.rules.shading.reflected(
+                &surface.reflectance,
+                surface.normal,
+                light.to_light,
+                arrival.v,
+                light.irradiance,
+            );
+            let promised = Promised {
+                sample: arrival.sample,
+                light: arrival.weight * reflected,
+            };
+            match arrival.ray_from(lamp) {
+                Some(ray) => from_light.push(ray, promised),
+                None => from_surfaces.push(arrival.ray_to(&light), promised),
+            }
         }
-        self.statistics.shadow_rays += self.rays.len() as u64;
-        self.accel.occluded_all(&self.rays, &mut self.occluded);
-        for ((lit, ray), &occluded) in lit.iter().zip(&self.rays).zip(&self.occluded) {
+        // Apart: rays that share their origin are searched faster among themselves.
+        self.add_unless_occluded(0, samples);
+        self.add_unless_occluded(1, samples);
+    }
+
+    /// Adds what shadow rays promise where nothing stands in their way.
+    fn add_unless_occluded(&mut self, kind: usize, samples: &mut [Sample]) {
+        let shadow_rays = &mut self.shadow_rays[kind];
+        let start = self.watched.then(Instant::now);
+        self.accel
+            .occluded_all(&shadow_rays.rays, &mut self.occluded);
+        self.statistics.search += since(start);
+        self.statistics.shadow_rays += shadow_rays.rays.len() as u64;
+        let transparent = self.accel.has_transparent();
+        for ((promised, ray), &occluded) in shadow_rays
+            .light
+            .iter()
+            .zip(&shadow_rays.rays)
+            .zip(&self.occluded)
+        {
             if occluded {
                 continue;
             }
-            let Arrival { path, surface, .. } = &arrivals[lit.arrival];
-            let Illumination {
-                to_light: l,
-                irradiance,
-                ..
-            } = lit.light;
-            let v = -path.ray.direction;
-            let (share, lost) = transmitted(self.scene, self.accel, ray);
-            self.statistics.lost_in_layers += u64::from(lost);
-            let e = irradiance * share;
-            let reflected =
-                self.rules
-                    .shading
-                    .reflected(&surface.reflectance, surface.normal, l, v, e);
-            samples[path.sample].color += arrivals[lit.arrival].weight() * reflected;
+            let mut light = promised.light;
+            if transparent {
+                let (share, lost) = transmitted(self.scene, self.accel, ray);
+                self.statistics.lost_in_layers += u64::from(lost);
+                light *= share;
+            }
+            samples[promised.sample as usize].color += light;
         }
+        shadow_rays.clear();
     }
 
     /// Sends on the mirror ray, as long as it still matters.
     fn reflect(&mut self, arrival: &Arrival) {
-        let Arrival { path, surface, .. } = arrival;
-        let energy = arrival.weight() * surface.reflectance.reflectivity;
-        let goes_on = path.bounces < self.rules.max_depth && self.rules.shading != Shading::Flat;
-        if !goes_on || energy.max_component() < mirror::LEAST_ENERGY {
+        let energy = arrival.weight * arrival.surface.reflectance.reflectivity;
+        if energy.max_component() < mirror::LEAST_ENERGY || self.rules.shading == Shading::Flat {
             return;
         }
-        let (d, point) = (path.ray.direction, surface.point);
-        let r = mirror::direction(d, surface.normal);
+        let path = self.paths.paths[arrival.path as usize];
+        if path.bounces >= self.rules.max_depth {
+            return;
+        }
+        let Surface { point, normal, .. } = &arrival.surface;
+        let d = -arrival.v;
+        let r = mirror::direction(d, *normal);
         // A bent normal can send the ray into the surface: then the surface's own normal says where the mirror is.
         let r = if r.dot(point.normal) > 0.0 {
             r
@@ -234,19 +252,24 @@ impl<'a> Tracer<'a> {
             r.normalize_or(r),
             f32::INFINITY,
         );
-        self.paths.push(Path {
-            ray,
+        let path = Path {
             energy,
             bounces: path.bounces + 1,
-            ..*path
-        });
+            ..path
+        };
+        self.further.push(ray, path);
         self.statistics.mirror_rays += 1;
     }
 
     /// Sends on what the surface lets through, in the direction it came.
     fn pass_through(&mut self, arrival: &Arrival) {
-        let Arrival { path, hit, surface } = arrival;
-        let energy = path.energy * (1.0 - surface.coverage);
+        if arrival.surface.coverage == 1.0 {
+            return;
+        }
+        let index = arrival.path as usize;
+        let (path, ray) = (self.paths.paths[index], &self.paths.rays[index]);
+        let energy = path.energy * (1.0 - arrival.surface.coverage);
+        let Some(hit) = &self.hits[index] else { return };
         if energy.max_component() < mirror::LEAST_ENERGY {
             return;
         }
@@ -254,60 +277,24 @@ impl<'a> Tracer<'a> {
             self.statistics.lost_in_layers += 1;
             return;
         }
-        let ray = path.ray.beyond(hit.t, hit.primitive);
-        self.paths.push(Path {
-            ray,
+        let path = Path {
             energy,
             layers: path.layers + 1,
-            ..*path
-        });
+            ..path
+        };
+        self.further.push(ray.beyond(hit.t, hit.primitive), path);
         self.statistics.transparent_rays += 1;
     }
 }
 
-impl Arrival {
-    /// The share of what the surface sends back that reaches the camera.
-    fn weight(&self) -> Rgb {
-        self.path.energy * self.surface.coverage
-    }
-
-    /// What a light sends here, if it stands before the surface: before the one that shading sees, and the true one.
-    fn faces(&self, light: &Light) -> Option<Illumination> {
-        let Surface {
-            point,
-            normal,
-            lit,
-            coverage,
-            ..
-        } = &self.surface;
-        if !lit || *coverage == 0.0 {
-            return None;
-        }
-        light
-            .illuminate(point.position)
-            .filter(|i| normal.dot(i.to_light) > 0.0 && point.normal.dot(i.to_light) > 0.0)
-    }
-
-    /// The ray to a light. It ends a little before, so that a surface that holds the light does not hide it.
-    fn shadow_ray(&self, light: &Illumination) -> Ray {
-        let point = self.surface.point;
-        Ray::leaving(
-            point.position,
-            point.normal,
-            point.error,
-            light.to_light,
-            light.distance * (1.0 - 1e-6),
-        )
-    }
+fn since(start: Option<Instant>) -> Duration {
+    start.map_or(Duration::ZERO, |start| start.elapsed())
 }
 
 /// The share of a shadow ray's light that transparent surfaces let through, nothing opaque being on the ray, and whether
 /// there were too many of them.
 fn transmitted(scene: &Scene, accel: &Accel, shadow_ray: &Ray) -> (f32, bool) {
     let mut share = 1.0;
-    if !accel.has_transparent() {
-        return (share, false);
-    }
     let mut ray = *shadow_ray;
     for _ in 0..MAX_LAYERS {
         let Some(hit) = accel.intersect(&ray) else {
@@ -320,13 +307,4 @@ fn transmitted(scene: &Scene, accel: &Accel, shadow_ray: &Ray) -> (f32, bool) {
         ray = ray.beyond(hit.t, hit.primitive);
     }
     (share, accel.intersect(&ray).is_some())
-}
-
-/// The depth of a camera ray is that of the first surface that is there at all.
-fn note_depth(view: &View, arrival: &Arrival, samples: &mut [Sample]) {
-    let Arrival { path, hit, surface } = arrival;
-    let sample = &mut samples[path.sample];
-    if path.bounces == 0 && surface.coverage > 0.0 && sample.depth == FAR_AWAY {
-        sample.depth = view.depth(&path.ray, hit.t);
-    }
 }

@@ -10,6 +10,7 @@ use luch::generate;
 use luch::geometry::{Plane, Sphere};
 use luch::light::{Falloff, Light, LightKind};
 use luch::material::{Material, Model};
+use luch::ray::Ray;
 use luch::render::{Progress, Settings, render};
 use luch::scene::{Background, Instance, Object, Scene, SceneDescription, Shown};
 use luch::shade::Shading;
@@ -430,6 +431,69 @@ fn nothing_convex_shadows_itself_at_any_scale_or_place() {
                 all > 5000 && dark == 0,
                 "{name}, scale {scale}, offset {offset}: {dark} of {all} are dark"
             );
+        }
+    }
+}
+
+/// The shadow ray of what `ray` meets first, from a lamp that it faces: from the lamp or, where that cannot be, to it.
+fn shadow_ray(scene: &Scene, accel: &Accel, ray: &Ray, lamp: Vec3) -> Option<Ray> {
+    let point = scene.surface(ray, &accel.intersect(ray)?).point;
+    let toward = lamp - point.position;
+    let faces = point.normal.dot(toward.normalize()) > 0.0;
+    let Some(from_lamp) = Ray::reaching(point.position, point.normal, point.error, lamp) else {
+        let (l, end) = (toward.normalize(), toward.length() * (1.0 - 1e-6));
+        let leaving = Ray::leaving(point.position, point.normal, point.error, l, end);
+        return faces.then_some(leaving);
+    };
+    faces.then_some(from_lamp)
+}
+
+#[test]
+fn nothing_convex_shadows_itself_however_near_or_far_the_lamp() {
+    for (scale, offset) in [(1.0, 0.0), (1e-3, 0.0), (1e3, 0.0), (1.0, 1e4)] {
+        let center = Vec3::splat(offset);
+        let camera = camera_at(center + Vec3::Z * 3.0 * scale, center);
+        let placed = DAffine3::from_scale_rotation_translation(
+            DVec3::splat(f64::from(scale)),
+            glam::DQuat::from_rotation_x(0.4),
+            center.as_dvec3(),
+        );
+        let ball = vec![Sphere {
+            center,
+            radius: scale,
+        }];
+        let floor = SceneDescription {
+            planes: vec![plane(center, Vec3::new(0.6, 0.0, 0.8), 0)],
+            ..generate::sphere_scene(Vec::new(), camera)
+        };
+        for (name, description) in [
+            (
+                "mesh",
+                generate::mesh_scene(generate::icosphere(4).transformed(&placed), camera),
+            ),
+            ("sphere", generate::sphere_scene(ball, camera)),
+            ("plane", floor),
+        ] {
+            let scene = Scene::new(description).expect("a scene");
+            let accel = Accel::build(&scene, &Options::default());
+            let view = scene.camera().view(100, 100);
+            for distance in [1.01, 1.1, 3.0, 100.0, 1e4, 1e6] {
+                let toward = Vec3::new(0.5, 0.3, 1.0).normalize();
+                let lamp = center + toward * (distance * scale);
+                let mut met = 0;
+                for pixel in 0..10_000 {
+                    let (x, y) = (f64::from(pixel % 100) + 0.5, f64::from(pixel / 100) + 0.5);
+                    if let Some(ray) = shadow_ray(&scene, &accel, &view.primary_ray(x, y), lamp) {
+                        met += 1;
+                        let place = format!("{name}, scale {scale}, offset {offset}");
+                        assert!(
+                            !accel.occluded(&ray),
+                            "{place}, lamp at {distance}: {ray:?}"
+                        );
+                    }
+                }
+                assert!(met > 50, "{name} {scale} {offset} {distance}: {met}");
+            }
         }
     }
 }

@@ -95,6 +95,8 @@ struct Rays {
     /// Of the total, those that stopped before they had passed every transparent layer.
     lost_in_layers: u64,
     millions_per_second: f64,
+    /// The share of the time that went into search: the picture's rays a second are this share of those of search alone.
+    search_share: f64,
 }
 
 /// What each phase took.
@@ -217,6 +219,7 @@ impl Rays {
             total,
             lost_in_layers: statistics.lost_in_layers,
             millions_per_second: total as f64 / 1e6 / seconds,
+            search_share: statistics.search_share(),
         }
     }
 
@@ -232,7 +235,8 @@ impl Rays {
             .map(|(count, kind)| format!("{} {kind}", HumanCount(*count)))
             .collect();
         let (kinds, speed) = (kinds.join(", "), self.millions_per_second);
-        format!("rays: {kinds}; {speed:.1} Mrays/s")
+        let share = self.search_share * 100.0;
+        format!("rays: {kinds}; {speed:.1} Mrays/s, {share:.0} % of what search alone reaches")
     }
 }
 

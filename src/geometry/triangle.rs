@@ -2,7 +2,7 @@
 
 use super::{Bounds, SurfacePoint};
 use crate::ray::Ray;
-use glam::{Vec2, Vec3, Vec3Swizzles};
+use glam::{Vec2, Vec3, Vec3A, Vec3Swizzles};
 
 /// Three vertices, counter-clockwise seen from the front.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,25 +125,38 @@ impl Triangle {
     }
 
     /// The point with barycentric weights (`1 - v - w`, `v`, `w`).
+    #[inline]
     pub fn surface_point(&self, [v, w]: [f32; 2]) -> SurfacePoint {
-        let [a, b, c] = self.0;
+        let [a, b, c] = self.corners();
         let position = a * (1.0 - v - w) + b * v + c * w;
         // Three products, two sums and the weights' own roundings.
-        let magnitude = self.bounds().extent();
+        let magnitude = a.abs().max(b.abs()).max(c.abs()).max_element();
         SurfacePoint {
-            position,
+            position: position.into(),
             error: 2.0 * f32::EPSILON * magnitude,
             normal: self.normal(),
         }
     }
 
-    /// The unit normal of the front; `+Y` where the triangle has no area.
-    pub fn normal(&self) -> Vec3 {
+    /// The vertices in registers of their own.
+    #[inline]
+    fn corners(&self) -> [Vec3A; 3] {
         let [a, b, c] = self.0;
-        // Scaled first: the cross product of edges of 1e-20 would be zero.
+        [a.into(), b.into(), c.into()]
+    }
+
+    /// The unit normal of the front; `+Y` where the triangle has no area.
+    #[inline]
+    pub fn normal(&self) -> Vec3 {
+        let [a, b, c] = self.corners();
         let (e1, e2) = (b - a, c - a);
-        let size = e1.abs().max(e2.abs()).max_element();
-        (e1 / size).cross(e2 / size).normalize_or(Vec3::Y)
+        let n = e1.cross(e2);
+        let squared = n.length_squared();
+        if squared > 1e-30 && squared < 1e30 {
+            (n * (1.0 / squared.sqrt())).into()
+        } else {
+            scaled_normal(e1, e2)
+        }
     }
 
     /// Half the length of the cross product of two edges.
@@ -160,6 +173,16 @@ impl Triangle {
             max: a.max(b).max(c),
         }
     }
+}
+
+/// The unit normal of very small or large edges: their cross product could be zero or infinite. They are scaled by a
+/// power of two, which rounds nothing.
+#[cold]
+fn scaled_normal(e1: Vec3A, e2: Vec3A) -> Vec3 {
+    let size = e1.abs().max(e2.abs()).max_element();
+    let size = f32::from_bits(size.to_bits() & f32::INFINITY.to_bits());
+    let n = (e1 / size).cross(e2 / size);
+    n.normalize_or(Vec3A::Y).into()
 }
 
 #[cfg(test)]

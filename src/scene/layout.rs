@@ -60,9 +60,35 @@ pub enum Primitive {
     },
 }
 
+/// The instance that was met last: the hits of neighbouring rays tend to lie in one.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Recent {
+    instance: usize,
+    /// Its primitives.
+    first: u32,
+    count: u32,
+}
+
 impl Scene {
     /// What primitive number `primitive` is; numbers come from this scene's own hits.
     pub fn primitive(&self, primitive: u32) -> Primitive {
+        self.primitive_near(primitive, &mut Recent::default())
+    }
+
+    /// [`Scene::primitive`], at once where it is of the instance that `recent` remembers.
+    #[inline]
+    pub(super) fn primitive_near(&self, primitive: u32, recent: &mut Recent) -> Primitive {
+        let triangle = primitive.wrapping_sub(recent.first);
+        if triangle < recent.count {
+            return Primitive::Triangle {
+                instance: recent.instance,
+                triangle,
+            };
+        }
+        self.primitive_anywhere(primitive, recent)
+    }
+
+    fn primitive_anywhere(&self, primitive: u32, recent: &mut Recent) -> Primitive {
         let (spheres, planes) = (self.spheres.len(), self.planes.len());
         let number = primitive as usize;
         if number < spheres {
@@ -75,9 +101,15 @@ impl Scene {
             .instances
             .partition_point(|i| i.first_primitive <= primitive)
             .saturating_sub(1);
+        let placed = &self.instances[instance];
+        *recent = Recent {
+            instance,
+            first: placed.first_primitive,
+            count: self.mesh(placed.mesh).triangles.len() as u32,
+        };
         Primitive::Triangle {
             instance,
-            triangle: primitive - self.instances[instance].first_primitive,
+            triangle: primitive - recent.first,
         }
     }
 

@@ -5,6 +5,7 @@ use crate::color::Rgb;
 use glam::Vec3;
 
 /// `k_d (n . l) E`, zero where the light stands behind the surface.
+#[inline]
 pub fn reflected(surface: &Reflectance, n: Vec3, l: Vec3, e: Rgb) -> Rgb {
     surface.diffuse * n.dot(l).max(0.0) * e
 }

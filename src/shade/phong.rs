@@ -11,6 +11,9 @@ pub fn reflected(surface: &Reflectance, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rg
     if cos_theta <= 0.0 {
         return Rgb::BLACK;
     }
+    if surface.specular == Rgb::BLACK {
+        return surface.diffuse * cos_theta * e;
+    }
     let r = mirror::direction(-l, n);
     (surface.diffuse * cos_theta
         + surface.specular * libm::powf(r.dot(v).max(0.0), surface.shininess))

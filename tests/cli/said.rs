@@ -20,7 +20,8 @@ fn each_choice_and_each_file_is_said_once() {
     assert_eq!(rest.len(), 4, "{rest:?}");
     assert!(rest[0].starts_with("1 triangle, 1 node, "), "{}", rest[0]);
     assert!(
-        rest[1].starts_with("rays: 256 camera, ") && rest[1].ends_with(" Mrays/s"),
+        rest[1].starts_with("rays: 256 camera, ")
+            && rest[1].ends_with(" % of what search alone reaches"),
         "{}",
         rest[1]
     );
@@ -119,6 +120,7 @@ fn json_is_all_that_standard_output_has() {
         "/bvh/bytes",
         "/bvh/sah_cost",
         "/rays/millions_per_second",
+        "/rays/search_share",
     ] {
         assert!(
             json.pointer(number).is_some_and(|n| n.is_number()),
