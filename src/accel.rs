@@ -31,8 +31,10 @@ use wide::Kind;
 pub struct Options {
     /// How much time the build takes for how good a tree.
     pub preset: Preset,
-    /// The most primitives a leaf may have; the preset's own choice where it is `None`.
+    /// The most primitives a leaf may have, at most 16; 8 where it is `None`.
     pub leaf_size: Option<NonZeroU8>,
+    /// Who builds it.
+    pub builder: Builder,
     /// How leaves lie in memory.
     pub layout: Layout,
     /// The kernels that search.
@@ -46,6 +48,7 @@ impl Default for Options {
         Options {
             preset: Preset::default(),
             leaf_size: None,
+            builder: Builder::default(),
             layout: Layout::default(),
             isa: Isa::detect(),
             packets: true,
@@ -69,6 +72,16 @@ pub enum Preset {
     Slow,
     /// For many pictures of one scene.
     VerySlow,
+}
+
+/// Who builds the tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Builder {
+    /// One tree of joined neighbours, one split from the top, or the better of both, by preset.
+    #[default]
+    Own,
+    /// The neighbours that obvhs joins, to compare.
+    Obvhs,
 }
 
 /// How leaves lie in memory.
@@ -216,6 +229,11 @@ impl Accel {
         self.has_transparent
     }
 
+    /// The instruction set of the kernels that search.
+    pub fn isa(&self) -> Isa {
+        self.isa
+    }
+
     /// What was built, and what it took.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
@@ -244,7 +262,7 @@ fn mesh_tree(scene: &Scene, mesh: u32, options: &Options) -> Tree {
         .map(|index| mesh.triangle(index).bounds())
         .collect();
     let topology = build::build(&bounds, |_| Kind::Triangles, options);
-    Tree::new(topology, mesh.bounds().extent(), |index| {
+    Tree::new(topology, mesh.bounds().extent(), options.layout, |index| {
         Item::Triangle(mesh.triangle(index), Number::new(index, true))
     })
 }
@@ -286,7 +304,7 @@ fn world_tree(scene: &Scene, options: &Options) -> Tree {
         .fold(Bounds::EMPTY, Bounds::union)
         .extent();
     let topology = build::build(&bounds, kind, options);
-    Tree::new(topology, extent, |item| {
+    Tree::new(topology, extent, options.layout, |item| {
         if item < spheres {
             let sphere = &scene.spheres()[item as usize];
             return Item::Sphere(sphere.shape, Number::new(item, opaque(sphere.material)));

@@ -5,13 +5,14 @@ mod binned;
 mod clustered;
 mod collapse;
 mod emit;
+mod obvhs;
 mod reinsertion;
 mod scaled;
 #[cfg(test)]
 mod tests;
 
 use super::wide::{Kind, Topology};
-use super::{Options, Preset};
+use super::{Builder, Options, Preset};
 use crate::geometry::Bounds;
 use binary::Node;
 use collapse::{Costs, Plan};
@@ -36,13 +37,15 @@ pub(super) fn build(
         (nodes, plan)
     };
     // Neither tree is the better for all scenes: the first is for rooms full of things, the second for landscapes and hair.
-    let clustered = |leaves| planned(clustered::joined(leaves, effort.reach, effort.near_rounds));
+    let clustered =
+        |leaves| planned(clustered::joined(leaves, effort.reach, effort.near_rounds).nodes);
     let binned = |mut leaves: Vec<Node>| {
         let nodes = binned::split(&mut leaves);
         drop(leaves);
         planned(nodes)
     };
     let (tree, plan) = match effort.trees {
+        _ if options.builder == Builder::Obvhs => planned(obvhs::joined(leaves, options.preset)),
         Trees::Clustered => clustered(leaves),
         Trees::Binned => binned(leaves),
         Trees::Both => {

@@ -1,7 +1,7 @@
 //! A tree with its primitives laid into it.
 
-use super::SharedInstance;
 use super::wide::{Kind, Node, Reference, Topology};
+use super::{Layout, SharedInstance};
 use crate::geometry::{Sphere, Triangle};
 
 /// The bit of a primitive's number that says that light passes through it.
@@ -35,14 +35,17 @@ impl Number {
     }
 }
 
-/// Up to eight triangles, vertex by vertex and axis by axis: 320 bytes.
+/// Up to `N` triangles, vertex by vertex and axis by axis: 320 bytes for eight, 160 for four.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-pub(super) struct TriangleBlock {
+#[repr(C, align(32))]
+pub(super) struct Triangles<const N: usize> {
     /// Not numbers in lanes without a triangle, so that no ray meets them.
-    pub(super) vertices: [[[f32; 8]; 3]; 3],
-    pub(super) numbers: [Number; 8],
+    pub(super) vertices: [[[f32; N]; 3]; 3],
+    pub(super) numbers: [Number; N],
 }
+
+/// What a kernel tests at once.
+pub(super) type TriangleBlock = Triangles<8>;
 
 /// Up to eight spheres.
 #[derive(Clone, Copy, Debug)]
@@ -54,17 +57,39 @@ pub(super) struct SphereBlock {
     pub(super) numbers: [Number; 8],
 }
 
-impl TriangleBlock {
-    const EMPTY: TriangleBlock = TriangleBlock {
-        vertices: [[[f32::NAN; 8]; 3]; 3],
-        numbers: [Number::NONE; 8],
+impl<const N: usize> Triangles<N> {
+    const EMPTY: Triangles<N> = Triangles {
+        vertices: [[[f32::NAN; N]; 3]; 3],
+        numbers: [Number::NONE; N],
     };
 
-    pub(super) fn triangle(&self, lane: usize) -> Triangle {
-        Triangle(
-            self.vertices
-                .map(|rows| glam::Vec3::from_array(rows.map(|row| row[lane]))),
-        )
+    /// Puts a triangle into a lane, below `N`.
+    fn set(&mut self, lane: usize, Triangle(corners): Triangle, number: Number) {
+        for (rows, corner) in self.vertices.iter_mut().zip(corners) {
+            rows.iter_mut()
+                .zip(corner.to_array())
+                .for_each(|(row, x)| row[lane] = x);
+        }
+        self.numbers[lane] = number;
+    }
+}
+
+impl TriangleBlock {
+    /// Up to two blocks of four, side by side.
+    #[inline(always)]
+    fn of_fours(fours: &[Triangles<4>]) -> TriangleBlock {
+        let mut eight = TriangleBlock::EMPTY;
+        for (half, four) in fours.iter().take(2).enumerate() {
+            let from = 4 * half;
+            for vertex in 0..3 {
+                for axis in 0..3 {
+                    eight.vertices[vertex][axis][from..from + 4]
+                        .copy_from_slice(&four.vertices[vertex][axis]);
+                }
+            }
+            eight.numbers[from..from + 4].copy_from_slice(&four.numbers);
+        }
+        eight
     }
 }
 
@@ -74,6 +99,14 @@ impl SphereBlock {
         radius: [f32::NAN; 8],
         numbers: [Number::NONE; 8],
     };
+
+    fn set(&mut self, lane: usize, sphere: Sphere, number: Number) {
+        let rows = self.center.iter_mut();
+        rows.zip(sphere.center.to_array())
+            .for_each(|(row, x)| row[lane] = x);
+        self.radius[lane] = sphere.radius;
+        self.numbers[lane] = number;
+    }
 
     pub(super) fn sphere(&self, lane: usize) -> Sphere {
         Sphere {
@@ -88,7 +121,9 @@ impl SphereBlock {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tree {
     pub(super) nodes: Vec<Node>,
-    pub(super) triangles: Vec<TriangleBlock>,
+    /// In blocks of eight, or of four.
+    triangles: Vec<TriangleBlock>,
+    fours: Vec<Triangles<4>>,
     pub(super) spheres: Vec<SphereBlock>,
     pub(super) instances: Vec<SharedInstance>,
     /// The greatest absolute coordinate of anything in it.
@@ -105,9 +140,34 @@ pub(super) fn blocks(reference: Reference) -> std::ops::Range<usize> {
     first..first + (reference.index() & 3) + 1
 }
 
+/// The blocks of a leaf of triangles, eight at a time.
+pub(super) enum LeafBlocks<'a> {
+    Eights(std::slice::Iter<'a, TriangleBlock>),
+    Fours(std::slice::Chunks<'a, Triangles<4>>, TriangleBlock),
+}
+
+impl LeafBlocks<'_> {
+    /// The next block, as long as there is one.
+    #[inline(always)]
+    pub(super) fn next(&mut self) -> Option<&TriangleBlock> {
+        match self {
+            LeafBlocks::Eights(blocks) => blocks.next(),
+            LeafBlocks::Fours(blocks, eight) => {
+                *eight = TriangleBlock::of_fours(blocks.next()?);
+                Some(eight)
+            }
+        }
+    }
+}
+
 impl Tree {
     /// Lays the items, in the order of the leaves, into blocks. `extent` is the greatest absolute coordinate.
-    pub(super) fn new(topology: Topology, extent: f32, item: impl Fn(u32) -> Item) -> Tree {
+    pub(super) fn new(
+        topology: Topology,
+        extent: f32,
+        layout: Layout,
+        item: impl Fn(u32) -> Item,
+    ) -> Tree {
         let mut tree = Tree {
             extent,
             leaves: topology.leaves.len(),
@@ -124,58 +184,63 @@ impl Tree {
             }
             let leaf = topology.leaves[child.index()];
             let items = &topology.order[leaf.first as usize..(leaf.first + leaf.count) as usize];
-            let first = tree.blocks_of(kind);
-            for items in items.chunks(8) {
-                tree.push(kind, items.iter().map(|&index| item(index)));
+            let first = tree.blocks_of(kind, layout);
+            let block = match (kind, layout) {
+                (Kind::Triangles, Layout::Small) => 4,
+                _ => 8,
+            };
+            for items in items.chunks(block) {
+                tree.push(kind, layout, items.iter().map(|&index| item(index)));
             }
-            let others = tree.blocks_of(kind) - first - 1;
+            let others = tree.blocks_of(kind, layout) - first - 1;
             *child = Reference::new(kind, (first << 2 | others) as u32);
         }
         tree.nodes = nodes;
         tree
     }
 
-    fn blocks_of(&self, kind: Kind) -> usize {
-        match kind {
-            Kind::Node => self.nodes.len(),
-            Kind::Triangles => self.triangles.len(),
-            Kind::Spheres => self.spheres.len(),
-            Kind::Instances => self.instances.len(),
+    fn blocks_of(&self, kind: Kind, layout: Layout) -> usize {
+        match (kind, layout) {
+            (Kind::Node, _) => self.nodes.len(),
+            (Kind::Triangles, Layout::Wide) => self.triangles.len(),
+            (Kind::Triangles, Layout::Small) => self.fours.len(),
+            (Kind::Spheres, _) => self.spheres.len(),
+            (Kind::Instances, _) => self.instances.len(),
         }
     }
 
-    fn push(&mut self, kind: Kind, items: impl Iterator<Item = Item>) {
-        let (mut triangles, mut spheres) = (TriangleBlock::EMPTY, SphereBlock::EMPTY);
+    fn push(&mut self, kind: Kind, layout: Layout, items: impl Iterator<Item = Item>) {
+        let (mut eight, mut four) = (Triangles::<8>::EMPTY, Triangles::<4>::EMPTY);
+        let mut spheres = SphereBlock::EMPTY;
         for (lane, item) in items.enumerate() {
-            match item {
-                Item::Triangle(Triangle(corners), number) => {
-                    for (rows, corner) in triangles.vertices.iter_mut().zip(corners) {
-                        rows.iter_mut()
-                            .zip(corner.to_array())
-                            .for_each(|(row, x)| row[lane] = x);
-                    }
-                    triangles.numbers[lane] = number;
+            match (item, layout) {
+                (Item::Triangle(triangle, number), Layout::Wide) => {
+                    eight.set(lane, triangle, number);
                 }
-                Item::Sphere(sphere, number) => {
-                    let rows = spheres.center.iter_mut();
-                    rows.zip(sphere.center.to_array())
-                        .for_each(|(row, x)| row[lane] = x);
-                    spheres.radius[lane] = sphere.radius;
-                    spheres.numbers[lane] = number;
+                (Item::Triangle(triangle, number), Layout::Small) => {
+                    four.set(lane, triangle, number);
                 }
-                Item::Instance(instance) => self.instances.push(instance),
+                (Item::Sphere(sphere, number), _) => spheres.set(lane, sphere, number),
+                (Item::Instance(instance), _) => self.instances.push(instance),
             }
         }
-        match kind {
-            Kind::Triangles => self.triangles.push(triangles),
-            Kind::Spheres => self.spheres.push(spheres),
-            Kind::Node | Kind::Instances => {}
+        match (kind, layout) {
+            (Kind::Triangles, Layout::Wide) => self.triangles.push(eight),
+            (Kind::Triangles, Layout::Small) => self.fours.push(four),
+            (Kind::Spheres, _) => self.spheres.push(spheres),
+            (Kind::Node | Kind::Instances, _) => {}
         }
     }
 
-    /// Whether nothing is in it.
-    pub(super) fn is_empty(&self) -> bool {
-        self.nodes.is_empty()
+    /// The blocks of a leaf of triangles.
+    #[inline(always)]
+    pub(super) fn leaf(&self, reference: Reference) -> LeafBlocks<'_> {
+        let blocks = blocks(reference);
+        if self.fours.is_empty() {
+            LeafBlocks::Eights(self.triangles[blocks].iter())
+        } else {
+            LeafBlocks::Fours(self.fours[blocks].chunks(2), TriangleBlock::EMPTY)
+        }
     }
 
     /// The most entries that a walk down this tree leaves on its stack.
@@ -187,6 +252,7 @@ impl Tree {
     pub(super) fn bytes(&self) -> usize {
         size_of_val(self.nodes.as_slice())
             + size_of_val(self.triangles.as_slice())
+            + size_of_val(self.fours.as_slice())
             + size_of_val(self.spheres.as_slice())
             + size_of_val(self.instances.as_slice())
     }

@@ -4,7 +4,7 @@ use super::values::{self, BackgroundValue, Size, whole_number};
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
-use luch::accel::Preset;
+use luch::accel::{Builder, Preset};
 use luch::output::{BitDepth, Display, Format};
 use luch::shade::Shading;
 use std::num::NonZeroU8;
@@ -61,6 +61,9 @@ Examples:
   luch render chair.obj --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
   luch render helmet.glb -o - | viewer
   luch render helmet.glb -o helmet.png --json > helmet.json
+
+Environment: LUCH_ISA=scalar|avx2|avx512 chooses the kernels that search [default: the widest that the machine has]; all of
+them give the same picture.
 
 Exit codes: 0 done, 1 usage or scene, 2 output, 130 interrupted.";
 
@@ -145,11 +148,19 @@ pub(super) struct RenderArguments {
     #[arg(long, value_enum, value_name = "PRESET", default_value = "medium")]
     pub(super) bvh: PresetValue,
 
-    /// The most primitives a leaf of the tree may have, 1 to 255 [default: the preset's]
+    /// Who builds the search tree: luch, or obvhs to compare
+    #[arg(long, value_enum, value_name = "BUILDER", default_value = "own")]
+    pub(super) bvh_builder: BuilderValue,
+
+    /// Lay the search tree out in less memory, for a little time
+    #[arg(long)]
+    pub(super) small_memory: bool,
+
+    /// The most primitives a leaf of the search tree may have, 1 to 16 [default: 8]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::leaf_size)]
     pub(super) leaf_size: Option<NonZeroU8>,
 
-    /// Say more: the causes of an error, the memory of the tree, each file that was read
+    /// Say more: the causes of an error, each file that was read
     #[arg(short, long, conflicts_with = "quiet")]
     pub(super) verbose: bool,
 
@@ -237,6 +248,21 @@ impl From<ShadingValue> for Shading {
             ShadingValue::Lambert => Shading::Lambert,
             ShadingValue::Phong => Shading::Phong,
             ShadingValue::BlinnPhong => Shading::BlinnPhong,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum BuilderValue {
+    Own,
+    Obvhs,
+}
+
+impl From<BuilderValue> for Builder {
+    fn from(value: BuilderValue) -> Builder {
+        match value {
+            BuilderValue::Own => Builder::Own,
+            BuilderValue::Obvhs => Builder::Obvhs,
         }
     }
 }

@@ -9,7 +9,7 @@ use super::summary::{self, Done, Seconds, Summary};
 use super::values::{BackgroundValue, Size};
 use glam::Vec3;
 use luch::Error;
-use luch::accel::{self, Accel, Isa};
+use luch::accel::{self, Accel, Isa, Layout};
 use luch::camera::Camera;
 use luch::load::{self, Asset, CameraChoice, Choices, Viewpoint};
 use luch::output::{self, Display};
@@ -151,6 +151,12 @@ fn accel_options(arguments: &RenderArguments) -> Result<accel::Options, Failure>
     Ok(accel::Options {
         preset: arguments.bvh.into(),
         leaf_size: arguments.leaf_size,
+        builder: arguments.bvh_builder.into(),
+        layout: if arguments.small_memory {
+            Layout::Small
+        } else {
+            Layout::Wide
+        },
         isa: Isa::asked().map_err(Failure::usage_or_scene)?,
         ..accel::Options::default()
     })

@@ -83,6 +83,8 @@ struct Bvh {
     depth: usize,
     bytes: usize,
     sah_cost: f32,
+    /// The instruction set of the kernels that search it.
+    kernels: &'static str,
 }
 
 #[derive(Serialize)]
@@ -140,6 +142,7 @@ impl Summary {
                 depth: tree.depth,
                 bytes: tree.bytes,
                 sah_cost: tree.sah_cost,
+                kernels: done.accel.isa().name(),
             },
             rays: Rays::of(&film.statistics),
             threads: rayon::current_num_threads(),
@@ -157,11 +160,11 @@ impl Summary {
         match (arguments.json, arguments.quiet) {
             (true, _) => print::json(self),
             (false, true) => Ok(()),
-            (false, false) => say(&self.in_words(arguments.verbose), arguments),
+            (false, false) => say(&self.in_words(), arguments),
         }
     }
 
-    fn in_words(&self, verbose: bool) -> Vec<String> {
+    fn in_words(&self) -> Vec<String> {
         let Seconds {
             load,
             build,
@@ -169,7 +172,7 @@ impl Summary {
             write,
         } = self.seconds;
         let mut lines = vec![
-            format!("{}, {}", self.scene.in_words(), self.bvh.in_words(verbose)),
+            format!("{}, {}", self.scene.in_words(), self.bvh.in_words()),
             self.rays.in_words(),
             format!(
                 "load {load:.2} s, build {build:.2} s, render {render:.2} s, write {write:.2} s"
@@ -193,16 +196,12 @@ impl SceneCounts {
 }
 
 impl Bvh {
-    fn in_words(&self, verbose: bool) -> String {
+    fn in_words(&self) -> String {
         let nodes = counted(self.nodes as u64, "node", "nodes");
-        let bytes = HumanBytes(self.bytes as u64);
-        let text = format!("{nodes}, {bytes} with their primitives");
-        if !verbose {
-            return text;
-        }
         let leaves = counted(self.leaves as u64, "leaf", "leaves");
-        let (depth, cost) = (self.depth, self.sah_cost);
-        format!("{text}, {leaves}, depth {depth}, SAH cost {cost:.1}")
+        let bytes = HumanBytes(self.bytes as u64);
+        let (depth, cost, kernels) = (self.depth, self.sah_cost, self.kernels);
+        format!("{nodes}, {leaves}, depth {depth}, {bytes}, SAH cost {cost:.1}, {kernels} kernels")
     }
 }
 

@@ -84,8 +84,9 @@ pub(super) fn whole_number(
 
 /// How many primitives a leaf may have.
 pub(super) fn leaf_size(text: &str) -> Result<NonZeroU8, String> {
-    let expected = "expected a whole number from 1 to 255";
-    text.parse().map_err(|_| expected.to_owned())
+    let size: Option<NonZeroU8> = text.parse().ok();
+    size.filter(|size| size.get() <= 16)
+        .ok_or_else(|| "expected a whole number from 1 to 16".to_owned())
 }
 
 /// A field of view in degrees.
@@ -168,7 +169,7 @@ mod tests {
         let samples = whole_number(0..=u32::MAX);
         let expected = "expected a whole number, at least 0";
         assert_eq!(samples("-1"), Err(expected.into()));
-        assert!(leaf_size("1").is_ok() && leaf_size("0").is_err() && leaf_size("256").is_err());
+        assert!(leaf_size("1").is_ok() && leaf_size("0").is_err() && leaf_size("17").is_err());
     }
 
     #[test]

@@ -25,6 +25,8 @@ fn help_names_every_option_and_has_examples() {
         "--bit-depth",
         "--background",
         "--bvh",
+        "--bvh-builder",
+        "--small-memory",
         "--leaf-size",
         "-v, --verbose",
         "-q, --quiet",

@@ -83,15 +83,11 @@ fn a_bad_value_is_told_what_is_expected() {
         ("samples <N>", "-4", "expected a whole number, at least 0"),
         ("max-depth <N>", "-1", "expected a whole number, at least 0"),
         ("threads <N>", "0", "expected a whole number from 1 to 1024"),
-        (
-            "leaf-size <N>",
-            "0",
-            "expected a whole number from 1 to 255",
-        ),
+        ("leaf-size <N>", "0", "expected a whole number from 1 to 16"),
         (
             "leaf-size <N>",
             "256",
-            "expected a whole number from 1 to 255",
+            "expected a whole number from 1 to 16",
         ),
         (
             "fov <DEGREES>",

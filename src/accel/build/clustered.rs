@@ -10,18 +10,29 @@ use rayon::prelude::*;
 /// Where less than one in so many joins another in a round, they are paired up.
 const STALLED: usize = 8;
 
-/// The nodes over `leaves`, the root first and siblings side by side. `reach` is how many neighbours on each side are
+/// A binary tree, and whether any round had to be helped.
+pub(super) struct Clustered {
+    /// The root first, siblings side by side.
+    pub(super) nodes: Vec<Node>,
+    pub(super) stalled: bool,
+}
+
+/// The tree over `leaves`. `reach` is how many neighbours on each side are
 /// looked at, once the first few rounds have joined the nearest.
-pub(super) fn joined(leaves: Vec<Node>, reach: usize, near_rounds: usize) -> Vec<Node> {
+pub(super) fn joined(leaves: Vec<Node>, reach: usize, near_rounds: usize) -> Clustered {
     let mut current = along_curve(leaves);
     let Some(&first) = current.first() else {
-        return Vec::new();
+        return Clustered {
+            nodes: Vec::new(),
+            stalled: false,
+        };
     };
     let mut nodes = vec![first; 2 * current.len() - 1];
     let mut wanted: Vec<i8> = vec![0; current.len()];
     // The last free place: the tree fills from its leaves at the end to its root.
     let mut free = nodes.len();
     let mut round = 0;
+    let mut stalled = false;
     while current.len() > 1 {
         let reach = if round < near_rounds { 1 } else { reach };
         wanted.truncate(current.len());
@@ -36,6 +47,7 @@ pub(super) fn joined(leaves: Vec<Node>, reach: usize, near_rounds: usize) -> Vec
             .count();
         if pairs < current.len() / STALLED {
             pair_up(&mut wanted);
+            stalled = true;
         }
         let mut kept = 0;
         for index in 0..current.len() {
@@ -57,7 +69,7 @@ pub(super) fn joined(leaves: Vec<Node>, reach: usize, near_rounds: usize) -> Vec
         round += 1;
     }
     nodes[0] = current[0];
-    nodes
+    Clustered { nodes, stalled }
 }
 
 /// How far away the neighbour is with which a node makes the smallest box.
@@ -96,7 +108,7 @@ fn pair_up(wanted: &mut [i8]) {
 }
 
 /// The leaves in the order of their centers along a Z curve (Morton 1966).
-fn along_curve(leaves: Vec<Node>) -> Vec<Node> {
+pub(super) fn along_curve(leaves: Vec<Node>) -> Vec<Node> {
     let mut keys: Vec<(u64, u32)> = leaves
         .par_iter()
         .enumerate()

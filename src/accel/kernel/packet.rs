@@ -11,7 +11,7 @@ use super::equation::{box_of, cross, interval, minus, pick, rows, spread};
 use super::float::{Float, Machine};
 use super::rays::{Bundle, Rays, three};
 use super::single::{Question, first};
-use crate::accel::tree::{TriangleBlock, blocks};
+use crate::accel::tree::TriangleBlock;
 use crate::accel::wide::{Kind, Node, Reference};
 
 /// So many rays or fewer are faster alone.
@@ -344,7 +344,8 @@ pub(super) fn walk<M: Machine, Q: Question, const COMMON: bool>(
             }
             Kind::Triangles => {
                 let mut any = false;
-                for block in &tree.triangles[blocks(next)] {
+                let mut leaf = tree.leaf(next);
+                while let Some(block) = leaf.next() {
                     any |= walk.triangles::<Q>(block, live);
                 }
                 if any && Q::ANY && walk.search.rays.live & bundle.members == 0 {

@@ -12,7 +12,7 @@ use crate::geometry::Hit;
 
 /// The nearest hit so far, or none: then `t` is the end of the ray.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::accel) struct Best {
+pub(super) struct Best {
     pub(super) t: f32,
     /// [`Best::NONE`] as long as there is none.
     pub(super) number: u32,
@@ -45,16 +45,7 @@ impl Question for Any {
 impl Best {
     pub(super) const NONE: u32 = u32::MAX;
 
-    /// Nothing, on a ray that ends at `t_max`.
-    pub(in crate::accel) fn new(t_max: f32) -> Best {
-        Best {
-            t: t_max,
-            number: Best::NONE,
-            barycentric: [0.0; 2],
-        }
-    }
-
-    pub(in crate::accel) fn hit(&self) -> Option<Hit> {
+    pub(super) fn hit(&self) -> Option<Hit> {
         (self.number != Best::NONE).then_some(Hit {
             t: self.t,
             primitive: self.number,
@@ -64,7 +55,7 @@ impl Best {
 
     /// Takes a hit that comes before.
     #[inline(always)]
-    pub(in crate::accel) fn offer(&mut self, t: f32, number: u32, barycentric: [f32; 2]) {
+    pub(super) fn offer(&mut self, t: f32, number: u32, barycentric: [f32; 2]) {
         if t < self.t || (t == self.t && number < self.number) {
             *self = Best {
                 t,
@@ -254,7 +245,8 @@ pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
                 }
             }
             Kind::Triangles => {
-                for block in &tree.triangles[blocks(next)] {
+                let mut leaf = tree.leaf(next);
+                while let Some(block) = leaf.next() {
                     if triangles::<M, Q>(block, first_number, &ray, probe, best) {
                         return true;
                     }
