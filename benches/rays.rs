@@ -35,7 +35,7 @@ mod table;
 use arguments::Arguments;
 use embree::Embree;
 use engines::{Arena, Engine, Round, Threads};
-use luch::accel::{Accel, Options};
+use luch::accel::Accel;
 use measure::{Difference, race};
 use record::Results;
 use sets::Kind;
@@ -111,7 +111,7 @@ fn race_in(
             .builds
             .extend(builds::of_scene(name, &scene, embree)?);
     }
-    let accel = Accel::build(&scene, &Options::default());
+    let accel = Accel::build(&scene, &engines::options());
     let arena = Arena::new(&scene, &accel, embree)?;
     let rounding = 1e-5 * scene.bounds().extent();
     let sets = sets::make(&scene, &accel, scenes::light(&scene), arguments.size());

@@ -1,6 +1,7 @@
 //! How long trees take to build, and how much memory they take.
 
 use super::embree::{Build, Embree, Quality};
+use super::engines::options;
 use super::scenes;
 use luch::accel::{Accel, Options, Preset};
 use luch::scene::Scene;
@@ -62,7 +63,7 @@ pub(crate) fn of_scene(
         for (builder, preset) in PRESETS {
             let options = Options {
                 preset,
-                ..Options::default()
+                ..options()
             };
             let mut row = row(builder);
             for _ in 0..again {

@@ -4,7 +4,7 @@ use super::embree::{Build, Embree, EmbreeScene, Nearest, Quality};
 use super::embree_layouts::{RtcRay, RtcRay16};
 use super::scenes;
 use super::sets::{Kind, RaySet};
-use luch::accel::{Accel, linear};
+use luch::accel::{Accel, Isa, Options, linear};
 use luch::geometry::Hit;
 use luch::ray::Ray;
 use luch::scene::Scene;
@@ -55,9 +55,16 @@ impl Engine {
     }
 }
 
-/// The instruction set of luch's kernels.
-fn luch_isa() -> String {
-    "scalar".into()
+/// How luch is measured: as it is by default, with the kernels that `LUCH_ISA` asks for.
+pub(crate) fn options() -> Options {
+    let isa = Isa::asked().unwrap_or_else(|error| {
+        eprintln!("error: {error}");
+        std::process::exit(1);
+    });
+    Options {
+        isa,
+        ..Options::default()
+    }
 }
 
 /// How many threads trace.
@@ -163,7 +170,7 @@ impl<'a> Arena<'a> {
     /// Which instructions an engine uses.
     pub(crate) fn isa(&self, engine: Engine) -> String {
         match engine {
-            Engine::Luch => luch_isa(),
+            Engine::Luch => options().isa.to_string(),
             Engine::Linear => "scalar".into(),
             _ => self.embree(engine).map_or("none", EmbreeScene::isa).into(),
         }

@@ -1,11 +1,11 @@
 //! A whole frame of the interior, held against its bare rays: what shading, textures and film cost.
 
 use super::arguments::Arguments;
-use super::engines::{Arena, Engine, Round, Threads};
+use super::engines::{Arena, Engine, Round, Threads, options};
 use super::measure::median;
 use super::scenes;
 use super::sets::{self, Kind};
-use luch::accel::{Accel, Options};
+use luch::accel::Accel;
 use luch::generate::Decoration;
 use luch::render::{Progress, Settings, render};
 use luch::shade::Shading;
@@ -33,7 +33,7 @@ pub(crate) fn of_interior(arguments: &Arguments) -> Result<Vec<FrameRow>, String
     let mut rows = Vec::new();
     for decoration in [Decoration::Plain, Decoration::Textured] {
         let scene = scenes::interior(decoration)?;
-        let accel = Accel::build(&scene, &Options::default());
+        let accel = Accel::build(&scene, &options());
         let frame = || {
             pool.install(|| render(&scene, &accel, &settings, &Progress::default()))
                 .statistics

@@ -2,10 +2,10 @@
 
 use super::arguments::Arguments;
 use super::embree::Embree;
-use super::engines::{Arena, Engine, Round, Threads};
+use super::engines::{Arena, Engine, Round, Threads, options};
 use super::scenes;
 use super::sets::{self, Kind};
-use luch::accel::{Accel, Options};
+use luch::accel::Accel;
 
 /// Traces a set of about `arguments.rays` rays `arguments.rounds` times.
 pub(crate) fn run(
@@ -17,7 +17,7 @@ pub(crate) fn run(
     let names = arguments.scenes();
     let name = names.first().ok_or("no scene")?;
     let scene = scenes::make(name)?;
-    let accel = Accel::build(&scene, &Options::default());
+    let accel = Accel::build(&scene, &options());
     let arena = Arena::new(&scene, &accel, embree)?;
     // Whole tiles of a picture twice as wide as high.
     let height = (f64::from(arguments.rays) / 2.0).sqrt() as u32 / 8 * 8;
