@@ -157,11 +157,11 @@ impl Summary {
         match (arguments.json, arguments.quiet) {
             (true, _) => print::json(self),
             (false, true) => Ok(()),
-            (false, false) => say(&self.in_words(arguments.verbose), arguments),
+            (false, false) => say(&self.in_words(), arguments),
         }
     }
 
-    fn in_words(&self, verbose: bool) -> Vec<String> {
+    fn in_words(&self) -> Vec<String> {
         let Seconds {
             load,
             build,
@@ -169,7 +169,7 @@ impl Summary {
             write,
         } = self.seconds;
         let mut lines = vec![
-            format!("{}, {}", self.scene.in_words(), self.bvh.in_words(verbose)),
+            format!("{}, {}", self.scene.in_words(), self.bvh.in_words()),
             self.rays.in_words(),
             format!(
                 "load {load:.2} s, build {build:.2} s, render {render:.2} s, write {write:.2} s"
@@ -193,16 +193,14 @@ impl SceneCounts {
 }
 
 impl Bvh {
-    fn in_words(&self, verbose: bool) -> String {
+    fn in_words(&self) -> String {
         let nodes = counted(self.nodes as u64, "node", "nodes");
-        let bytes = HumanBytes(self.bytes as u64);
-        let text = format!("{nodes}, {bytes} with their primitives");
-        if !verbose {
-            return text;
-        }
         let leaves = counted(self.leaves as u64, "leaf", "leaves");
+        let bytes = HumanBytes(self.bytes as u64);
         let (depth, cost) = (self.depth, self.sah_cost);
-        format!("{text}, {leaves}, depth {depth}, SAH cost {cost:.1}")
+        format!(
+            "{nodes}, {leaves}, depth {depth}, SAH cost {cost:.1}, {bytes} with their primitives"
+        )
     }
 }
 
