@@ -191,7 +191,10 @@ impl View {
     fn ray_through(&self, offset: DVec3) -> Ray {
         let position = self.camera.position;
         let (origin, d) = match self.camera.projection {
-            Projection::Perspective { .. } => (position, (self.w + offset).normalize()),
+            Projection::Perspective { .. } => {
+                let d = self.w + offset;
+                (position, d * (1.0 / d.length_squared().sqrt()))
+            }
             Projection::Orthographic { .. } => (position + offset, self.w),
         };
         // A clip plane at depth z is met at t = z / cos(angle to the axis).

@@ -77,94 +77,102 @@ impl Light {
 }
 
 /// A light made ready for many points: what is the same for all of them is reckoned once.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Lamp {
-    kind: LightKind,
-    falloff: Falloff,
-    range: Option<f32>,
+    /// Where its light comes from; no matter where that is no point.
+    position: Vec3,
+    /// Where a directional light travels; `None` for the others.
+    direction: Option<Vec3>,
     emitted: Rgb,
+    weakens: bool,
+    /// Infinity where there is no limit.
+    range: f32,
+    /// Where the light of a spot's axis travels; zero for the others.
+    axis: Vec3,
     cone: Cone,
 }
 
 impl Lamp {
     /// A light made ready.
     pub fn of(light: &Light) -> Lamp {
-        let cone = match light.kind {
+        let lamp = Lamp {
+            position: Vec3::ZERO,
+            direction: None,
+            emitted: light.color * light.intensity,
+            weakens: light.falloff == Falloff::InverseSquare,
+            range: light.range.unwrap_or(f32::INFINITY),
+            axis: Vec3::ZERO,
+            cone: Cone::EVERYWHERE,
+        };
+        match light.kind {
+            LightKind::Point { position } => Lamp { position, ..lamp },
+            LightKind::Directional { direction } => Lamp {
+                direction: Some(direction),
+                ..lamp
+            },
             LightKind::Spot {
+                position,
+                direction,
                 inner_angle,
                 outer_angle,
-                ..
-            } => Cone::new(inner_angle, outer_angle),
-            _ => Cone::default(),
-        };
-        Lamp {
-            kind: light.kind,
-            falloff: light.falloff,
-            range: light.range,
-            emitted: light.color * light.intensity,
-            cone,
+            } => Lamp {
+                position,
+                axis: direction,
+                cone: Cone::new(inner_angle, outer_angle),
+                ..lamp
+            },
         }
     }
 
     /// Where its light comes from; `None` where that is no point.
-    #[inline]
+    #[inline(always)]
     pub fn position(&self) -> Option<Vec3> {
-        match self.kind {
-            LightKind::Point { position } | LightKind::Spot { position, .. } => Some(position),
-            LightKind::Directional { .. } => None,
-        }
+        self.direction.is_none().then_some(self.position)
+    }
+
+    /// What every point gets that faces it, where its light is parallel.
+    pub fn parallel(&self) -> Option<Illumination> {
+        self.direction.map(|direction| Illumination {
+            to_light: -direction,
+            distance: f32::INFINITY,
+            irradiance: self.emitted,
+        })
     }
 
     /// [`Light::illuminate`].
-    #[inline]
     pub fn illuminate(&self, point: Vec3) -> Option<Illumination> {
-        match self.kind {
-            LightKind::Directional { direction } => Some(Illumination {
-                to_light: -direction,
-                distance: f32::INFINITY,
-                irradiance: self.emitted,
-            }),
-            LightKind::Point { position } => self.illuminate_from(position, point),
-            LightKind::Spot {
-                position,
-                direction,
-                ..
-            } => {
-                let light = self.illuminate_from(position, point)?;
-                let cone = self.cone.attenuation(direction.dot(-light.to_light));
-                (cone > 0.0).then_some(Illumination {
-                    irradiance: light.irradiance * cone,
-                    ..light
-                })
-            }
-        }
+        self.parallel().or_else(|| {
+            let (light, arrives) = self.shine(point);
+            arrives.then_some(light)
+        })
     }
 
-    #[inline]
-    fn illuminate_from(&self, position: Vec3, point: Vec3) -> Option<Illumination> {
-        let toward = position - point;
-        let distance = toward.length();
-        if distance == 0.0 {
-            return None;
-        }
-        let weakened = match self.falloff {
-            Falloff::None => 1.0,
-            Falloff::InverseSquare => 1.0 / (distance * distance),
-        };
-        let attenuation = weakened
-            * self
-                .range
-                .map_or(1.0, |range| range_attenuation(distance, range));
-        (attenuation > 0.0).then_some(Illumination {
-            to_light: toward / distance,
+    /// What a light that shines from a point sends to `point`, and whether that is anything. Without a branch, so that a
+    /// loop over points becomes one over registers: what this light has not is there with numbers that change nothing.
+    #[inline(always)]
+    pub fn shine(&self, point: Vec3) -> (Illumination, bool) {
+        let toward = self.position - point;
+        // Not `length`, which calls `libm`: the compiler's own root is as exact, and SIMD.
+        let distance = toward.length_squared().sqrt();
+        let to_light = toward / distance;
+        let squared = 1.0 / (distance * distance);
+        let weakened = if self.weakens { squared } else { 1.0 };
+        let attenuation = weakened * range_attenuation(distance, self.range);
+        let cone = self.cone.attenuation(self.axis.dot(-to_light));
+        let light = Illumination {
+            to_light,
             distance,
-            irradiance: self.emitted * attenuation,
-        })
+            irradiance: self.emitted * attenuation * cone,
+        };
+        (
+            light,
+            (distance != 0.0) & (attenuation > 0.0) & (cone > 0.0),
+        )
     }
 }
 
 /// A spot's cone (KHR_lights_punctual, "Inner and Outer Cone Angles").
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Cone {
     cos_outer: f32,
     /// The ramp's rise for each unit of the cosine.
@@ -172,6 +180,12 @@ struct Cone {
 }
 
 impl Cone {
+    /// Every cosine is past its ramp.
+    const EVERYWHERE: Cone = Cone {
+        cos_outer: -3.0,
+        scale: 1.0,
+    };
+
     fn new(inner_angle: f32, outer_angle: f32) -> Cone {
         let cos_outer = libm::cosf(outer_angle);
         let scale = 1.0 / (libm::cosf(inner_angle) - cos_outer).max(0.001);
@@ -180,6 +194,7 @@ impl Cone {
 
     /// The share of light inside: 1 to the inner half-angle, 0 from the outer one on, between them the square of a
     /// ramp in the cosine.
+    #[inline(always)]
     fn attenuation(&self, cos_angle: f32) -> f32 {
         let ramp = ((cos_angle - self.cos_outer) * self.scale).clamp(0.0, 1.0);
         ramp * ramp
@@ -187,6 +202,7 @@ impl Cone {
 }
 
 /// `max(min(1 - (distance / range)^4, 1), 0)` (KHR_lights_punctual, "Range Property").
+#[inline(always)]
 fn range_attenuation(distance: f32, range: f32) -> f32 {
     let ratio = distance / range;
     (1.0 - ratio * ratio * ratio * ratio).clamp(0.0, 1.0)

@@ -3,11 +3,13 @@
 mod check;
 mod error;
 mod layout;
+mod look;
+mod mix;
 mod surface;
 
 pub use error::SceneError;
 pub use layout::{InstanceSpace, PlacedInstance, Primitive, Recent};
-pub use surface::{Answer, Surface};
+pub use surface::{Met, Place, Surface};
 
 use crate::camera::Camera;
 use crate::color::Rgb;
@@ -148,7 +150,7 @@ impl Scene {
         check::check_placed(&meshes, &instances)?;
         // Last: a camera may have been framed to what was found wrong above.
         check::check_camera(&description.camera)?;
-        let plain = description.materials.iter().map(surface::plain).collect();
+        let plain = description.materials.iter().map(look::plain).collect();
         let lamps = description.lights.iter().map(Lamp::of).collect();
         Ok(Scene {
             camera: description.camera,

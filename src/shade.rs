@@ -41,11 +41,23 @@ pub enum Shading {
     BlinnPhong,
 }
 
+impl Reflectance {
+    /// No light comes back, none comes from it.
+    pub const BLACK: Reflectance = Reflectance {
+        diffuse: Rgb::BLACK,
+        specular: Rgb::BLACK,
+        shininess: 0.0,
+        reflectivity: Rgb::BLACK,
+        ambient: Rgb::BLACK,
+        emission: Rgb::BLACK,
+    };
+}
+
 impl Shading {
     /// What one light adds at a point: zero where it stands behind the surface.
     ///
     /// `n`, `l`, `v` are unit vectors that point away from the surface; `e` is the light's irradiance.
-    #[inline]
+    #[inline(always)]
     pub fn reflected(self, surface: &Reflectance, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
         match self {
             Shading::Flat => Rgb::BLACK,

@@ -2,7 +2,7 @@
 
 use crate::color::{Rgb, srgb_to_linear};
 use crate::geometry::Plane;
-use glam::{DVec3, Mat3, Vec2, Vec3};
+use glam::{DVec3, Mat3, Vec2, Vec3, Vec4};
 use std::sync::{Arc, LazyLock};
 
 /// Pixels of four channels, top row first, `width * height` of them.
@@ -86,6 +86,38 @@ pub struct TextureUse {
 impl Texture {
     /// The linear colour and alpha at `uv`, (0, 0) being the upper left corner of the image.
     pub fn sample(&self, uv: Vec2) -> [f32; 4] {
+        let bytes = |[r, g, b, a]: [u8; 4]| Vec4::new(r.into(), g.into(), b.into(), a.into());
+        let words = |[r, g, b, a]: [u16; 4]| Vec4::new(r.into(), g.into(), b.into(), a.into());
+        let color = match (&self.image.pixels, self.encoding) {
+            (Pixels::Eight(pixels), Encoding::Srgb) => {
+                let linear = &*SRGB_TO_LINEAR;
+                self.filtered(uv, pixels, |[r, g, b, a]| {
+                    let [r, g, b] = [linear[r as usize], linear[g as usize], linear[b as usize]];
+                    Vec4::new(r, g, b, f32::from(a) / 255.0)
+                })
+            }
+            (Pixels::Eight(pixels), Encoding::Linear) => {
+                self.filtered(uv, pixels, |texel| bytes(texel) / 255.0)
+            }
+            (Pixels::Sixteen(pixels), Encoding::Srgb) => self.filtered(uv, pixels, |texel| {
+                let [x, y, z, w] = (words(texel) / 65535.0).to_array();
+                Vec4::new(srgb_to_linear(x), srgb_to_linear(y), srgb_to_linear(z), w)
+            }),
+            (Pixels::Sixteen(pixels), Encoding::Linear) => {
+                self.filtered(uv, pixels, |texel| words(texel) / 65535.0)
+            }
+        };
+        color.to_array()
+    }
+
+    /// The nearest pixel or the blend of the nearest four, each through `decode`.
+    #[inline(always)]
+    fn filtered<T: Copy + Default>(
+        &self,
+        uv: Vec2,
+        pixels: &[T],
+        decode: impl Fn(T) -> Vec4,
+    ) -> Vec4 {
         // A coordinate that is no number shows the first pixel; one too great to have a fraction shows any.
         let uv = if uv.is_nan() {
             Vec2::ZERO
@@ -94,70 +126,45 @@ impl Texture {
         };
         let (width, height) = (self.image.width, self.image.height);
         let (x, y) = (uv.x * width as f32, uv.y * height as f32);
+        let column = |i| wrapped(i, width, self.wrap[0]);
+        let row = |j| wrapped(j, height, self.wrap[1]) * width as usize;
+        let texel = |at: usize| decode(pixels.get(at).copied().unwrap_or_default());
         match self.filter {
-            Filter::Nearest => self.texel(libm::floorf(x) as i64, libm::floorf(y) as i64),
+            Filter::Nearest => texel(row(floor(y)) + column(floor(x))),
             Filter::Linear => {
                 // Pixel centres lie at halves.
                 let (x, y) = (x - 0.5, y - 0.5);
-                let (left, top) = (libm::floorf(x), libm::floorf(y));
-                let (right_share, bottom_share) = (x - left, y - top);
-                let (i, j) = (left as i64, top as i64);
-                let across = |j| {
-                    mix(
-                        self.texel(i, j),
-                        self.texel(i.saturating_add(1), j),
-                        right_share,
-                    )
+                let (i, j) = (floor(x), floor(y));
+                let (right_share, bottom_share) = (x - i as f32, y - j as f32);
+                let [left, right] = [column(i), column(i.saturating_add(1))];
+                let across = |row| {
+                    let (left, right) = (texel(row + left), texel(row + right));
+                    left * (1.0 - right_share) + right * right_share
                 };
-                mix(across(j), across(j.saturating_add(1)), bottom_share)
+                let (top, bottom) = (across(row(j)), across(row(j.saturating_add(1))));
+                top * (1.0 - bottom_share) + bottom * bottom_share
             }
         }
     }
+}
 
-    /// The linear colour of pixel (`i`, `j`), wrapped into the image.
-    fn texel(&self, i: i64, j: i64) -> [f32; 4] {
-        let image = &*self.image;
-        let (i, j) = (
-            wrapped(i, image.width, self.wrap[0]),
-            wrapped(j, image.height, self.wrap[1]),
-        );
-        let at = j * image.width as usize + i;
-        match (&image.pixels, self.encoding) {
-            (Pixels::Eight(pixels), Encoding::Srgb) => {
-                let [r, g, b, a] = pixels.get(at).copied().unwrap_or_default();
-                let [r, g, b] = [r, g, b].map(|channel| SRGB_TO_LINEAR[usize::from(channel)]);
-                [r, g, b, f32::from(a) / 255.0]
-            }
-            (Pixels::Eight(pixels), Encoding::Linear) => pixels
-                .get(at)
-                .copied()
-                .unwrap_or_default()
-                .map(|channel| f32::from(channel) / 255.0),
-            (Pixels::Sixteen(pixels), encoding) => {
-                let [r, g, b, a] = pixels
-                    .get(at)
-                    .copied()
-                    .unwrap_or_default()
-                    .map(|c| f32::from(c) / 65535.0);
-                match encoding {
-                    Encoding::Srgb => [srgb_to_linear(r), srgb_to_linear(g), srgb_to_linear(b), a],
-                    Encoding::Linear => [r, g, b, a],
-                }
-            }
-        }
-    }
+/// The greatest whole number that is not above `x`, a number that 64 bits can hold.
+#[inline(always)]
+fn floor(x: f32) -> i64 {
+    let toward_zero = x as i64;
+    toward_zero - i64::from(x < toward_zero as f32)
 }
 
 static SRGB_TO_LINEAR: LazyLock<[f32; 256]> =
     LazyLock::new(|| std::array::from_fn(|byte| srgb_to_linear(byte as f32 / 255.0)));
 
-fn mix(a: [f32; 4], b: [f32; 4], share: f32) -> [f32; 4] {
-    std::array::from_fn(|channel| a[channel] * (1.0 - share) + b[channel] * share)
-}
-
 /// The pixel that stands at position `i` of a row of `size`.
+#[inline(always)]
 fn wrapped(i: i64, size: u32, wrap: Wrap) -> usize {
     let size = i64::from(size).max(1);
+    if (0..size).contains(&i) {
+        return i as usize; // Every way of wrapping leaves it there.
+    }
     let within = match wrap {
         Wrap::Repeat => i.rem_euclid(size),
         Wrap::ClampToEdge => i.clamp(0, size - 1),

@@ -6,19 +6,24 @@
 //! is in its batch.
 
 mod batch;
+mod lanes;
+mod transparent;
 
 use crate::accel::Accel;
 use crate::camera::View;
 use crate::color::Rgb;
 use crate::film::{FAR_AWAY, Statistics};
 use crate::geometry::Hit;
-use crate::light::Lamp;
+use crate::light::{Illumination, Lamp};
 use crate::ray::Ray;
-use crate::scene::{Recent, Scene, Shown, Surface};
+use crate::scene::{Place, Recent, Scene, Shown};
 use crate::shade::{Shading, flat, mirror};
-use batch::{Arrival, Path, Paths, Promised, ShadowRays};
+use batch::{Arrival, Arrivals, Path, Paths, Promised, ShadowRays, ray_to};
+use glam::Vec3;
+use lanes::{Shone, WIDTH};
 use std::mem::{swap, take};
 use std::time::{Duration, Instant};
+use transparent::transmitted;
 
 /// The most transparent layers a ray goes through.
 pub const MAX_LAYERS: u32 = 64;
@@ -57,7 +62,7 @@ pub struct Tracer<'a> {
     /// What goes on from where `paths` end.
     further: Paths,
     hits: Vec<Option<Hit>>,
-    arrivals: Vec<Arrival<'a>>,
+    arrivals: Arrivals,
     shadow_rays: [ShadowRays; 2],
     occluded: Vec<bool>,
     recent: Recent,
@@ -75,7 +80,7 @@ impl<'a> Tracer<'a> {
             paths: Paths::default(),
             further: Paths::default(),
             hits: Vec::new(),
-            arrivals: Vec::new(),
+            arrivals: Arrivals::new(scene),
             shadow_rays: Default::default(),
             occluded: Vec::new(),
             recent: Recent::default(),
@@ -95,19 +100,17 @@ impl<'a> Tracer<'a> {
         self.paths.start(camera_rays);
         while !self.paths.rays.is_empty() {
             self.arrive(samples);
+            self.look();
+            self.add_own_light(view, samples);
             let arrivals = take(&mut self.arrivals);
-            for arrival in &arrivals {
-                self.note_depth(view, arrival, samples);
-                samples[arrival.sample as usize].color += self.own_light(arrival);
-            }
             if self.rules.shading != Shading::Flat {
                 for lamp in self.scene.lamps() {
                     self.add_light(lamp, &arrivals, samples);
                 }
             }
-            for arrival in &arrivals {
-                self.reflect(arrival);
-                self.pass_through(arrival);
+            for &index in &arrivals.onward {
+                self.reflect(&arrivals, index);
+                self.pass_through(&arrivals.list[index]);
             }
             self.arrivals = arrivals;
             self.paths.clear();
@@ -116,6 +119,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Follows every path to the surface it meets; what meets none sees the background.
+    #[inline(never)]
     fn arrive(&mut self, samples: &mut [Sample]) {
         let start = self.watched.then(Instant::now);
         self.accel.intersect_all(&self.paths.rays, &mut self.hits);
@@ -127,14 +131,8 @@ impl<'a> Tracer<'a> {
             let sample = &mut samples[path.sample as usize];
             match hit {
                 Some(hit) => {
-                    let surface = self.scene.surface_near(ray, hit, &mut self.recent);
-                    self.arrivals.push(Arrival {
-                        path: index,
-                        sample: path.sample,
-                        weight: path.energy * surface.coverage,
-                        v: -ray.direction,
-                        surface,
-                    });
+                    let path = (index, ray, path);
+                    self.arrivals.push(self.scene, path, hit, &mut self.recent);
                 }
                 // What the camera sees past everything is the film's affair, unless the background is part of the
                 // picture; the energy of such a path is what transparent surfaces left, alike in every channel.
@@ -144,62 +142,125 @@ impl<'a> Tracer<'a> {
                 None => sample.color += path.energy * background.color,
             }
         }
+        self.arrivals.settle();
     }
 
-    /// The depth of a camera ray is that of the first surface that is there at all.
-    fn note_depth(&self, view: &View, arrival: &Arrival, samples: &mut [Sample]) {
-        let sample = &mut samples[arrival.sample as usize];
-        if sample.depth != FAR_AWAY || arrival.surface.coverage == 0.0 {
-            return;
-        }
-        let index = arrival.path as usize;
-        if let (0, Some(hit)) = (self.paths.paths[index].bounces, &self.hits[index]) {
-            sample.depth = view.depth(&self.paths.rays[index], hit.t);
-        }
-    }
-
-    /// Emission and ambient light, or the flat colour.
-    fn own_light(&self, arrival: &Arrival) -> Rgb {
-        let surface = &*arrival.surface.reflectance;
-        let light = match self.rules.shading {
-            Shading::Flat => flat::color(surface),
-            _ => surface.emission + surface.ambient * self.scene.ambient(),
-        };
-        arrival.weight * light
-    }
-
-    /// Adds what one light sends to every surface that it reaches.
-    fn add_light(&mut self, lamp: &Lamp, arrivals: &[Arrival], samples: &mut [Sample]) {
-        let [from_light, from_surfaces] = &mut self.shadow_rays;
-        for arrival in arrivals {
-            let Some(light) = arrival.faces(lamp) else {
-                continue;
-            };
-            let surface = &arrival.surface;
-            let reflected = self.rules.shading.reflected(
-                &surface.reflectance,
-                surface.normal,
-                light.to_light,
-                arrival.v,
-                light.irradiance,
-            );
-            let promised = Promised {
-                sample: arrival.sample,
-                light: arrival.weight * reflected,
-            };
-            match arrival.ray_from(lamp) {
-                Some(ray) => from_light.push(ray, promised),
-                None => from_surfaces.push(arrival.ray_to(&light), promised),
+    /// Looks up what surfaces are like, where that is not the same everywhere.
+    #[inline(never)]
+    fn look(&mut self) {
+        for unknown in 0..self.arrivals.unknown.len() {
+            let index = self.arrivals.unknown[unknown];
+            let path = self.arrivals.list[index].path as usize;
+            if let Some(hit) = &self.hits[path] {
+                let (ray, place) = (&self.paths.rays[path], self.arrivals.place(index));
+                let surface = self.scene.look(ray, hit, place, &mut self.recent);
+                self.arrivals.know(index, &surface);
             }
+        }
+    }
+
+    /// Adds the light of the surfaces' own, and notes how far they are.
+    #[inline(never)]
+    fn add_own_light(&mut self, view: &View, samples: &mut [Sample]) {
+        let Arrivals {
+            list,
+            onward,
+            reflectances,
+            ..
+        } = &mut self.arrivals;
+        for (index, arrival) in list.iter().enumerate() {
+            let sample = &mut samples[arrival.sample as usize];
+            let surface = &reflectances[arrival.reflectance as usize];
+            let light = match self.rules.shading {
+                Shading::Flat => flat::color(surface),
+                _ => surface.emission + surface.ambient * self.scene.ambient(),
+            };
+            sample.color += arrival.weight * light;
+            if arrival.coverage < 1.0 || mirror::matters(arrival.weight * surface.reflectivity) {
+                onward.push(index);
+            }
+            // The depth of a camera ray is that of the first surface that is there at all.
+            if sample.depth == FAR_AWAY && arrival.coverage > 0.0 {
+                let path = arrival.path as usize;
+                if let (0, Some(hit)) = (self.paths.paths[path].bounces, &self.hits[path]) {
+                    sample.depth = view.depth(&self.paths.rays[path], hit.t);
+                }
+            }
+        }
+    }
+
+    /// Adds what one light sends to every surface that it stands before and reaches.
+    fn add_light(&mut self, lamp: &Lamp, arrivals: &Arrivals, samples: &mut [Sample]) {
+        match (lamp.position(), lamp.parallel()) {
+            (Some(position), _) => self.promise_from(lamp, position, arrivals),
+            (None, Some(light)) => self.promise_along(&light, arrivals),
+            (None, None) => {}
         }
         // Apart: rays that share their origin are searched faster among themselves.
         self.add_unless_occluded(0, samples);
         self.add_unless_occluded(1, samples);
     }
 
+    /// The shadow rays of a light that shines from a point.
+    #[inline(never)]
+    fn promise_from(&mut self, lamp: &Lamp, position: Vec3, arrivals: &Arrivals) {
+        let [from_light, from_surfaces] = &mut self.shadow_rays;
+        let mut shone = Shone::default();
+        for (eight, places) in arrivals.list.chunks(WIDTH).zip(&arrivals.places) {
+            shone.set(places, lamp, position);
+            for (lane, arrival) in eight.iter().enumerate() {
+                let Some(light) = shone.arriving(lane) else {
+                    continue;
+                };
+                let v = -self.paths.rays[arrival.path as usize].direction;
+                let surface = &arrivals.reflectances[arrival.reflectance as usize];
+                let (n, shading) = (places.normal(lane), self.rules.shading);
+                let promised = Promised {
+                    sample: arrival.sample,
+                    light: arrival.weight
+                        * shading.reflected(surface, n, light.to_light, v, light.irradiance),
+                };
+                match shone.ray_from(position, lane) {
+                    Some(ray) => from_light.push(ray, promised),
+                    None => from_surfaces.push(ray_to(&light, &places.get(lane).point), promised),
+                }
+            }
+        }
+    }
+
+    /// The shadow rays of a light whose rays are parallel.
+    #[inline(never)]
+    fn promise_along(&mut self, light: &Illumination, arrivals: &Arrivals) {
+        for (index, arrival) in arrivals.list.iter().enumerate() {
+            let (
+                Place {
+                    point, normal: n, ..
+                },
+                l,
+            ) = (arrivals.place(index), light.to_light);
+            if n.dot(l) > 0.0 && point.normal.dot(l) > 0.0 {
+                let v = -self.paths.rays[arrival.path as usize].direction;
+                let surface = &arrivals.reflectances[arrival.reflectance as usize];
+                let promised = Promised {
+                    sample: arrival.sample,
+                    light: arrival.weight
+                        * self
+                            .rules
+                            .shading
+                            .reflected(surface, n, l, v, light.irradiance),
+                };
+                self.shadow_rays[1].push(ray_to(light, &point), promised);
+            }
+        }
+    }
+
     /// Adds what shadow rays promise where nothing stands in their way.
+    #[inline(never)]
     fn add_unless_occluded(&mut self, kind: usize, samples: &mut [Sample]) {
         let shadow_rays = &mut self.shadow_rays[kind];
+        if shadow_rays.rays.is_empty() {
+            return;
+        }
         let start = self.watched.then(Instant::now);
         self.accel
             .occluded_all(&shadow_rays.rays, &mut self.occluded);
@@ -227,18 +288,20 @@ impl<'a> Tracer<'a> {
     }
 
     /// Sends on the mirror ray, as long as it still matters.
-    fn reflect(&mut self, arrival: &Arrival) {
-        let energy = arrival.weight * arrival.surface.reflectance.reflectivity;
-        if energy.max_component() < mirror::LEAST_ENERGY || self.rules.shading == Shading::Flat {
+    fn reflect(&mut self, arrivals: &Arrivals, index: usize) {
+        let arrival = &arrivals.list[index];
+        let surface = &arrivals.reflectances[arrival.reflectance as usize];
+        let energy = arrival.weight * surface.reflectivity;
+        if !mirror::matters(energy) || self.rules.shading == Shading::Flat {
             return;
         }
         let path = self.paths.paths[arrival.path as usize];
         if path.bounces >= self.rules.max_depth {
             return;
         }
-        let Surface { point, normal, .. } = &arrival.surface;
-        let d = -arrival.v;
-        let r = mirror::direction(d, *normal);
+        let Place { point, normal, .. } = arrivals.place(index);
+        let d = self.paths.rays[arrival.path as usize].direction;
+        let r = mirror::direction(d, normal);
         // A bent normal can send the ray into the surface: then the surface's own normal says where the mirror is.
         let r = if r.dot(point.normal) > 0.0 {
             r
@@ -263,14 +326,14 @@ impl<'a> Tracer<'a> {
 
     /// Sends on what the surface lets through, in the direction it came.
     fn pass_through(&mut self, arrival: &Arrival) {
-        if arrival.surface.coverage == 1.0 {
+        if arrival.coverage == 1.0 {
             return;
         }
         let index = arrival.path as usize;
         let (path, ray) = (self.paths.paths[index], &self.paths.rays[index]);
-        let energy = path.energy * (1.0 - arrival.surface.coverage);
+        let energy = path.energy * (1.0 - arrival.coverage);
         let Some(hit) = &self.hits[index] else { return };
-        if energy.max_component() < mirror::LEAST_ENERGY {
+        if !mirror::matters(energy) {
             return;
         }
         if path.layers == MAX_LAYERS {
@@ -289,22 +352,4 @@ impl<'a> Tracer<'a> {
 
 fn since(start: Option<Instant>) -> Duration {
     start.map_or(Duration::ZERO, |start| start.elapsed())
-}
-
-/// The share of a shadow ray's light that transparent surfaces let through, nothing opaque being on the ray, and whether
-/// there were too many of them.
-fn transmitted(scene: &Scene, accel: &Accel, shadow_ray: &Ray) -> (f32, bool) {
-    let mut share = 1.0;
-    let mut ray = *shadow_ray;
-    for _ in 0..MAX_LAYERS {
-        let Some(hit) = accel.intersect(&ray) else {
-            return (share, false);
-        };
-        share *= 1.0 - scene.shadow_coverage(&hit);
-        if share == 0.0 {
-            return (share, false);
-        }
-        ray = ray.beyond(hit.t, hit.primitive);
-    }
-    (share, accel.intersect(&ray).is_some())
 }

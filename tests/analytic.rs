@@ -437,7 +437,7 @@ fn nothing_convex_shadows_itself_at_any_scale_or_place() {
 
 /// The shadow ray of what `ray` meets first, from a lamp that it faces: from the lamp or, where that cannot be, to it.
 fn shadow_ray(scene: &Scene, accel: &Accel, ray: &Ray, lamp: Vec3) -> Option<Ray> {
-    let point = scene.surface(ray, &accel.intersect(ray)?).point;
+    let point = scene.surface(ray, &accel.intersect(ray)?).place.point;
     let toward = lamp - point.position;
     let faces = point.normal.dot(toward.normalize()) > 0.0;
     let Some(from_lamp) = Ray::reaching(point.position, point.normal, point.error, lamp) else {

@@ -2,7 +2,7 @@
 
 use super::{Bounds, SurfacePoint};
 use crate::ray::Ray;
-use glam::{Vec2, Vec3, Vec3A, Vec3Swizzles};
+use glam::{Vec2, Vec3, Vec3Swizzles};
 
 /// Three vertices, counter-clockwise seen from the front.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,37 +125,48 @@ impl Triangle {
     }
 
     /// The point with barycentric weights (`1 - v - w`, `v`, `w`).
-    #[inline]
-    pub fn surface_point(&self, [v, w]: [f32; 2]) -> SurfacePoint {
-        let [a, b, c] = self.corners();
-        let position = a * (1.0 - v - w) + b * v + c * w;
-        // Three products, two sums and the weights' own roundings.
-        let magnitude = a.abs().max(b.abs()).max(c.abs()).max_element();
-        SurfacePoint {
-            position: position.into(),
-            error: 2.0 * f32::EPSILON * magnitude,
-            normal: self.normal(),
-        }
+    pub fn surface_point(&self, barycentric: [f32; 2]) -> SurfacePoint {
+        let (point, sure) = self.point_and_normal(barycentric);
+        let normal = if sure { point.normal } else { self.normal() };
+        SurfacePoint { normal, ..point }
     }
 
-    /// The vertices in registers of their own.
-    #[inline]
-    fn corners(&self) -> [Vec3A; 3] {
+    /// [`Triangle::surface_point`], and whether its normal is one: else the triangle is so small or large that
+    /// [`Triangle::normal`] has to find it. Without a branch, so that a loop over triangles becomes one over registers.
+    #[inline(always)]
+    pub fn point_and_normal(&self, [v, w]: [f32; 2]) -> (SurfacePoint, bool) {
         let [a, b, c] = self.0;
-        [a.into(), b.into(), c.into()]
+        let position = a * (1.0 - v - w) + b * v + c * w;
+        // Three products, two sums and the weights' own roundings.
+        let greater = |x: f32, y: f32| if x > y { x } else { y };
+        let of_vertices = |x: f32, y: f32, z: f32| greater(greater(x.abs(), y.abs()), z.abs());
+        let magnitude = greater(
+            greater(of_vertices(a.x, b.x, c.x), of_vertices(a.y, b.y, c.y)),
+            of_vertices(a.z, b.z, c.z),
+        );
+        let n = (b - a).cross(c - a);
+        let squared = n.length_squared();
+        let point = SurfacePoint {
+            position,
+            error: 2.0 * f32::EPSILON * magnitude,
+            normal: n * (1.0 / squared.sqrt()),
+        };
+        (point, (squared > 1e-30) & (squared < 1e30))
     }
 
     /// The unit normal of the front; `+Y` where the triangle has no area.
-    #[inline]
     pub fn normal(&self) -> Vec3 {
-        let [a, b, c] = self.corners();
+        let [a, b, c] = self.0;
+        // Scaled first, by a power of two, which rounds nothing: the cross product of edges of 1e-20 would be zero.
         let (e1, e2) = (b - a, c - a);
-        let n = e1.cross(e2);
+        let size = e1.abs().max(e2.abs()).max_element();
+        let size = f32::from_bits(size.to_bits() & f32::INFINITY.to_bits());
+        let n = (e1 / size).cross(e2 / size);
         let squared = n.length_squared();
-        if squared > 1e-30 && squared < 1e30 {
-            (n * (1.0 / squared.sqrt())).into()
+        if squared > 0.0 {
+            n * (1.0 / squared.sqrt())
         } else {
-            scaled_normal(e1, e2)
+            Vec3::Y
         }
     }
 
@@ -173,16 +184,6 @@ impl Triangle {
             max: a.max(b).max(c),
         }
     }
-}
-
-/// The unit normal of very small or large edges: their cross product could be zero or infinite. They are scaled by a
-/// power of two, which rounds nothing.
-#[cold]
-fn scaled_normal(e1: Vec3A, e2: Vec3A) -> Vec3 {
-    let size = e1.abs().max(e2.abs()).max_element();
-    let size = f32::from_bits(size.to_bits() & f32::INFINITY.to_bits());
-    let n = (e1 / size).cross(e2 / size);
-    n.normalize_or(Vec3A::Y).into()
 }
 
 #[cfg(test)]

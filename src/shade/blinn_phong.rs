@@ -6,19 +6,24 @@ use glam::Vec3;
 
 /// `(k_d (n . l) + k_s max(0, n . h)^s) E`, where `h` lies halfway between `l` and `v`; zero where the light stands
 /// behind the surface, so that no highlight leaks through.
-#[inline]
+#[inline(always)]
 pub fn reflected(surface: &Reflectance, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
     let cos_theta = n.dot(l);
     if cos_theta <= 0.0 {
         return Rgb::BLACK;
     }
+    let matt = surface.diffuse * cos_theta;
     if surface.specular == Rgb::BLACK {
-        return surface.diffuse * cos_theta * e;
+        return matt * e;
     }
+    (matt + surface.specular * lobe(n, l, v, surface.shininess)) * e
+}
+
+/// `max(0, n . h)^s`.
+#[inline(never)]
+fn lobe(n: Vec3, l: Vec3, v: Vec3, shininess: f32) -> f32 {
     let h = (l + v).normalize_or_zero(); // Zero when the light is exactly behind, as seen from the viewer.
-    (surface.diffuse * cos_theta
-        + surface.specular * libm::powf(n.dot(h).max(0.0), surface.shininess))
-        * e
+    libm::powf(n.dot(h).max(0.0), shininess)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The ideal mirror (Whitted 1980, "An Improved Illumination Model for Shaded Display").
 
+use crate::color::Rgb;
 use glam::Vec3;
 
 /// The direction in which an ideal mirror sends on what travels along `d`: `r = d - 2 (d . n) n`. Keeps `d`'s length.
@@ -9,6 +10,12 @@ pub fn direction(d: Vec3, n: Vec3) -> Vec3 {
 
 /// Below this product of reflectivities a mirror ray could no longer change a picture, and none is sent.
 pub const LEAST_ENERGY: f32 = 1.0 / 4096.0;
+
+/// Whether a mirror ray of this energy is sent.
+#[inline(always)]
+pub fn matters(energy: Rgb) -> bool {
+    energy.r >= LEAST_ENERGY || energy.g >= LEAST_ENERGY || energy.b >= LEAST_ENERGY
+}
 
 #[cfg(test)]
 mod tests {

@@ -1,9 +1,12 @@
 //! What a tracer has under way: paths, the surfaces they arrive at, and shadow rays, in memory that is kept.
 
+use super::lanes::{Places, Triangles, WIDTH};
 use crate::color::Rgb;
-use crate::light::{Illumination, Lamp};
+use crate::geometry::{Hit, SurfacePoint, Triangle};
+use crate::light::Illumination;
 use crate::ray::{AT_LIGHT, Ray};
-use crate::scene::Surface;
+use crate::scene::{Place, Recent, Scene, Surface};
+use crate::shade::Reflectance;
 use glam::Vec3;
 
 /// What a ray carries to its sample.
@@ -52,56 +55,156 @@ impl Paths {
 }
 
 /// A path at a surface.
-#[derive(Debug)]
-pub(super) struct Arrival<'a> {
-    /// Which of the paths.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arrival {
+    /// Which of the paths, and of their hits.
     pub(super) path: u32,
     /// Which sample of the batch.
     pub(super) sample: u32,
+    /// How the surface answers light: an index into [`Arrivals::reflectances`].
+    pub(super) reflectance: u32,
+    /// The share of the ray that ends here.
+    pub(super) coverage: f32,
     /// The share of what the surface sends back that reaches the camera.
     pub(super) weight: Rgb,
-    /// Toward the viewer, unit.
-    pub(super) v: Vec3,
-    pub(super) surface: Surface<'a>,
 }
 
-impl Arrival<'_> {
-    /// What a light sends here, if it stands before the surface: before the one that shading sees, and the true one.
-    #[inline]
-    pub(super) fn faces(&self, lamp: &Lamp) -> Option<Illumination> {
-        let Surface {
-            point,
-            normal,
-            lit,
-            coverage,
-            ..
-        } = &self.surface;
-        if !lit || *coverage == 0.0 {
-            return None;
+/// The paths of a batch that met something, in order.
+#[derive(Debug, Default)]
+pub(super) struct Arrivals {
+    pub(super) list: Vec<Arrival>,
+    /// Eight of the list at a time; behind it lies what an earlier batch left.
+    triangles: Vec<Triangles>,
+    pub(super) places: Vec<Places>,
+    /// What is no triangle in world space.
+    others: Vec<(usize, Place)>,
+    /// Which arrivals have to be looked at, since their surface is not the same everywhere.
+    pub(super) unknown: Vec<usize>,
+    /// Which send on rays.
+    pub(super) onward: Vec<usize>,
+    /// Of every material, where that is the same everywhere, and then what was looked up.
+    pub(super) reflectances: Vec<Reflectance>,
+    materials: usize,
+}
+
+impl Arrivals {
+    pub(super) fn new(scene: &Scene) -> Arrivals {
+        let plain = |material| scene.plain(material).copied().unwrap_or(Reflectance::BLACK);
+        let materials = scene.materials().len();
+        Arrivals {
+            list: Vec::new(),
+            triangles: Vec::new(),
+            places: Vec::new(),
+            others: Vec::new(),
+            unknown: Vec::new(),
+            onward: Vec::new(),
+            reflectances: (0..materials as u32).map(plain).collect(),
+            materials,
         }
-        let light = lamp.illuminate(point.position)?;
-        let l = light.to_light;
-        (normal.dot(l) > 0.0 && point.normal.dot(l) > 0.0).then_some(light)
     }
 
-    /// The shadow ray from a light that shines from a point, where one can end close enough to the surface.
-    #[inline]
-    pub(super) fn ray_from(&self, lamp: &Lamp) -> Option<Ray> {
-        let point = &self.surface.point;
-        Ray::reaching(point.position, point.normal, point.error, lamp.position()?)
+    pub(super) fn clear(&mut self) {
+        self.list.clear();
+        self.others.clear();
+        self.unknown.clear();
+        self.onward.clear();
+        self.reflectances.truncate(self.materials);
     }
 
-    /// The shadow ray to a light. It ends a little before, so that a surface that holds the light does not hide it.
-    pub(super) fn ray_to(&self, light: &Illumination) -> Ray {
-        let point = &self.surface.point;
-        Ray::leaving(
-            point.position,
-            point.normal,
-            point.error,
-            light.to_light,
-            light.distance * (1.0 - AT_LIGHT),
-        )
+    /// Adds path number `index`, which met something at `hit`.
+    #[inline(always)]
+    pub(super) fn push(
+        &mut self,
+        scene: &Scene,
+        (index, ray, path): (u32, &Ray, &Path),
+        hit: &Hit,
+        recent: &mut Recent,
+    ) {
+        let number = self.list.len();
+        let lane = number % WIDTH;
+        if number / WIDTH == self.triangles.len() {
+            self.triangles.push(Triangles::default());
+            self.places.push(Places::default());
+        }
+        let mut plain = None;
+        match (
+            scene.met(hit, recent),
+            self.triangles.get_mut(number / WIDTH),
+        ) {
+            (Some(met), Some(triangles)) => {
+                let (barycentric, d) = (hit.barycentric, ray.direction);
+                triangles.set(lane, &met.triangle, met.normals, barycentric, d);
+                plain = met.plain;
+            }
+            _ => self.push_other(scene.place(ray, hit, recent)),
+        }
+        if plain.is_none() {
+            self.unknown.push(number);
+        }
+        self.list.push(Arrival {
+            path: index,
+            sample: path.sample,
+            reflectance: plain.unwrap_or(0),
+            coverage: 1.0,
+            weight: path.energy,
+        });
     }
+
+    #[inline(never)]
+    fn push_other(&mut self, place: Place) {
+        let number = self.list.len();
+        if let Some(triangles) = self.triangles.get_mut(number / WIDTH) {
+            // Some triangle that is in nobody's way.
+            let any = Triangle([Vec3::ZERO, Vec3::X, Vec3::Y]);
+            triangles.set(number % WIDTH, &any, None, [0.0; 2], Vec3::Z);
+        }
+        self.others.push((number, place));
+    }
+
+    /// Finds the places of all that was pushed.
+    pub(super) fn settle(&mut self) {
+        let blocks = self.places.iter_mut().zip(&self.triangles);
+        for ((places, triangles), arrivals) in blocks.zip(self.list.chunks(WIDTH)) {
+            triangles.places(places);
+            for lane in 0..arrivals.len() {
+                if !places.is_sure(lane) {
+                    places.set(lane, &triangles.place(lane));
+                }
+            }
+        }
+        for &(index, ref place) in &self.others {
+            self.places[index / WIDTH].set(index % WIDTH, place);
+        }
+    }
+
+    /// Takes note of what was seen at an arrival.
+    pub(super) fn know(&mut self, index: usize, surface: &Surface) {
+        let arrival = &mut self.list[index];
+        arrival.coverage = surface.coverage;
+        arrival.weight *= surface.coverage;
+        arrival.reflectance = self.reflectances.len() as u32;
+        self.reflectances.push(surface.reflectance);
+        // No light stands before a surface without a normal.
+        let lit = surface.lit && surface.coverage > 0.0;
+        let normal = if lit { surface.normal } else { Vec3::ZERO };
+        self.places[index / WIDTH].set_normal(index % WIDTH, normal);
+    }
+
+    /// Where an arrival is.
+    pub(super) fn place(&self, index: usize) -> Place {
+        self.places[index / WIDTH].get(index % WIDTH)
+    }
+}
+
+/// The shadow ray to a light. It ends a little before, so that a surface that holds the light does not hide it.
+pub(super) fn ray_to(light: &Illumination, point: &SurfacePoint) -> Ray {
+    Ray::leaving(
+        point.position,
+        point.normal,
+        point.error,
+        light.to_light,
+        light.distance * (1.0 - AT_LIGHT),
+    )
 }
 
 /// Shadow rays, and what each decides about.

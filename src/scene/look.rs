@@ -1,0 +1,140 @@
+//! What a material is like at one point: every texture looked up.
+
+use super::Scene;
+use super::mix::Vertex;
+use crate::color::Rgb;
+use crate::material::{Alpha, AlphaChannel, AlphaMode, Material, Model, NormalMap, Textured};
+use crate::shade::{Reflectance, metallic_roughness};
+use crate::texture::TextureUse;
+use glam::{Vec3, Vec4};
+
+impl Scene {
+    fn look_up(&self, used: &TextureUse, vertex: &Vertex) -> [f32; 4] {
+        let uv = vertex.uvs[usize::from(used.uv_set != 0)];
+        let uv = used
+            .transform
+            .map_or(uv, |transform| transform.transform_point2(uv));
+        self.textures
+            .get(used.texture as usize)
+            .map_or([1.0; 4], |texture| texture.sample(uv))
+    }
+
+    fn color(&self, textured: &Textured<Rgb>, vertex: &Vertex) -> Rgb {
+        textured.texture.as_ref().map_or(textured.factor, |used| {
+            let [r, g, b, _] = self.look_up(used, vertex);
+            textured.factor * Rgb::new(r, g, b)
+        })
+    }
+
+    pub(super) fn coverage(&self, alpha: &Alpha, vertex: &Vertex) -> f32 {
+        if alpha.mode == AlphaMode::Opaque {
+            return 1.0;
+        }
+        let texel = alpha.coverage.texture.as_ref().map_or(1.0, |used| {
+            let [red, _, _, a] = self.look_up(used, vertex);
+            match alpha.channel {
+                AlphaChannel::Alpha => a,
+                AlphaChannel::Red => red,
+            }
+        });
+        let coverage = (alpha.coverage.factor * texel * vertex.color[3]).clamp(0.0, 1.0);
+        match alpha.mode {
+            AlphaMode::Mask { cutoff } => f32::from(u8::from(coverage >= cutoff)),
+            _ => coverage,
+        }
+    }
+
+    pub(super) fn reflectance(
+        &self,
+        material: &Material,
+        vertex: &Vertex,
+        cos_view: f32,
+    ) -> Reflectance {
+        let [r, g, b, _] = vertex.color;
+        let tint = Rgb::new(r, g, b);
+        let emission = self.color(&material.emission, vertex);
+        match &material.model {
+            Model::Phong(phong) => {
+                let diffuse = self.color(&phong.diffuse, vertex) * tint;
+                Reflectance {
+                    diffuse,
+                    specular: self.color(&phong.specular, vertex),
+                    shininess: phong.shininess,
+                    reflectivity: phong.reflectivity,
+                    ambient: diffuse,
+                    emission,
+                }
+            }
+            Model::MetallicRoughness(m) => {
+                let [_, roughness, metallic, _] = m
+                    .metallic_roughness
+                    .as_ref()
+                    .map_or([1.0; 4], |used| self.look_up(used, vertex));
+                let occluded = m
+                    .occlusion
+                    .texture
+                    .as_ref()
+                    .map_or(0.0, |used| 1.0 - self.look_up(used, vertex)[0]);
+                let parameters = metallic_roughness::Parameters {
+                    base_color: self.color(&m.base_color, vertex) * tint,
+                    metallic: m.metallic * metallic,
+                    roughness: m.roughness * roughness,
+                    ambient_access: 1.0 - m.occlusion.factor * occluded,
+                };
+                metallic_roughness::reflectance(parameters, cos_view, emission)
+            }
+            Model::Unlit { color } => {
+                let color = self.color(color, vertex) * tint;
+                let dark = Rgb::BLACK;
+                let (specular, reflectivity, ambient) = (dark, dark, dark);
+                Reflectance {
+                    diffuse: color,
+                    specular,
+                    shininess: 0.0,
+                    reflectivity,
+                    ambient,
+                    emission: color,
+                }
+            }
+        }
+    }
+
+    /// The shading normal of the front, bent by a normal map where the mesh says which way is right.
+    pub(super) fn mapped_normal(
+        &self,
+        map: &NormalMap,
+        n: Vec3,
+        tangent: Vec4,
+        vertex: &Vertex,
+    ) -> Vec3 {
+        let t = tangent.truncate();
+        if t == Vec3::ZERO {
+            return n;
+        }
+        let [x, y, z, _] = self.look_up(&map.texture, vertex);
+        let b = n.cross(t) * tangent.w;
+        let (x, y, z) = (
+            (x * 2.0 - 1.0) * map.scale,
+            (y * 2.0 - 1.0) * map.scale,
+            z * 2.0 - 1.0,
+        );
+        (t * x + b * y + n * z).normalize_or(n)
+    }
+}
+
+/// How a material answers light wherever it is seen, from whatever side; `None` where that depends on the place.
+pub(super) fn plain(material: &Material) -> Option<Reflectance> {
+    let Model::Phong(phong) = &material.model else {
+        return None;
+    };
+    let same =
+        material.double_sided && material.is_opaque() && material.textures().next().is_none();
+    same.then_some(Reflectance {
+        diffuse: phong.diffuse.factor,
+        specular: phong.specular.factor,
+        shininess: phong.shininess,
+        reflectivity: phong.reflectivity,
+        ambient: phong.diffuse.factor,
+        emission: material.emission.factor,
+    })
+}

@@ -1,0 +1,112 @@
+//! What lies between the vertices of a triangle.
+
+use super::PlacedInstance;
+use crate::geometry::Triangle;
+use crate::mesh::Mesh;
+use glam::{Vec2, Vec3, Vec4};
+use std::ops::{Add, Mul};
+
+/// What a material gives its textures: what is interpolated over a primitive, neutral where the mesh says nothing.
+pub(super) struct Vertex {
+    pub(super) uvs: [Vec2; 2],
+    pub(super) color: [f32; 4],
+}
+
+/// Where the mesh says nothing.
+pub(super) const NEUTRAL: Vertex = Vertex {
+    uvs: [Vec2::ZERO; 2],
+    color: [1.0; 4],
+};
+
+/// A point of a triangle, by the weights of its corners.
+pub(super) struct Mix<'a> {
+    mesh: &'a Mesh,
+    corners: [u32; 3],
+    weights: [f32; 3],
+}
+
+impl<'a> Mix<'a> {
+    #[inline]
+    pub(super) fn new(mesh: &'a Mesh, triangle: u32, [v, w]: [f32; 2]) -> Mix<'a> {
+        let corners = mesh.triangles.get(triangle as usize).copied();
+        Mix {
+            mesh,
+            corners: corners.unwrap_or_default(),
+            weights: [1.0 - v - w, v, w],
+        }
+    }
+
+    /// What belongs to the three corners; `missing` where the mesh does not say.
+    #[inline]
+    pub(super) fn corners<T: Copy>(&self, values: &[T], missing: T) -> [T; 3] {
+        let [a, b, c] = self.corners;
+        let of = |corner: u32| values.get(corner as usize).copied().unwrap_or(missing);
+        [of(a), of(b), of(c)]
+    }
+
+    /// The mean of what belongs to the corners.
+    #[inline]
+    fn mixed<T: Copy + Add<Output = T> + Mul<f32, Output = T>>(&self, values: &[T], zero: T) -> T {
+        let ([a, b, c], [wa, wb, wc]) = (self.corners(values, zero), self.weights);
+        a * wa + b * wb + c * wc
+    }
+
+    /// The interpolated normal, the triangle's own where the mesh has none; in the mesh's space.
+    #[inline]
+    pub(super) fn normal(&self, of_triangle: Vec3) -> Vec3 {
+        if self.mesh.normals.is_empty() {
+            return of_triangle;
+        }
+        self.mixed(&self.mesh.normals, of_triangle)
+            .normalize_or(of_triangle)
+    }
+
+    /// The tangent square to `normal`, both in world space, and a whole sign: interpolation keeps neither. Zero where
+    /// the mesh has none.
+    pub(super) fn tangent(&self, normal: Vec3, instance: &PlacedInstance) -> Vec4 {
+        let tangent = self.mixed(&self.mesh.tangents, Vec4::ZERO);
+        let sign = 1f32.copysign(tangent.w);
+        let t = tangent.truncate();
+        let Some(space) = &instance.space else {
+            return square_to(normal, t).extend(sign);
+        };
+        let matrix = space.to_world.matrix3;
+        let sign = if matrix.determinant() < 0.0 {
+            -sign
+        } else {
+            sign
+        };
+        square_to(normal, matrix * t).extend(sign)
+    }
+
+    #[inline]
+    pub(super) fn triangle(&self) -> Triangle {
+        Triangle(self.corners(&self.mesh.positions, Vec3::ZERO))
+    }
+
+    #[inline]
+    pub(super) fn has_colors(&self) -> bool {
+        !self.mesh.colors.is_empty()
+    }
+
+    /// What textures are looked up with.
+    pub(super) fn vertex(&self) -> Vertex {
+        let [first, second] = &self.mesh.uvs;
+        let mut vertex = NEUTRAL;
+        vertex.uvs[0] = self.mixed(first, Vec2::ZERO);
+        if !second.is_empty() {
+            vertex.uvs[1] = self.mixed(second, Vec2::ZERO);
+        }
+        if self.has_colors() {
+            let [a, b, c] = self.corners(&self.mesh.colors, [1.0; 4]).map(Vec4::from);
+            let [wa, wb, wc] = self.weights;
+            vertex.color = (a * wa + b * wb + c * wc).to_array();
+        }
+        vertex
+    }
+}
+
+/// The part of `t` that is square to a unit normal, of unit length; zero where there is none.
+fn square_to(normal: Vec3, t: Vec3) -> Vec3 {
+    (t - normal * normal.dot(t)).normalize_or_zero()
+}
