@@ -5,8 +5,7 @@
 )]
 
 use super::embree_layouts::{
-    Arguments, INDICES, INVALID, ROBUST, RtcHit, RtcHit16, RtcRay, RtcRay16, RtcRayHit,
-    RtcRayHit16, VERTICES,
+    Arguments, INDICES, INVALID, ROBUST, RtcRay, RtcRay16, RtcRayHit, RtcRayHit16, VERTICES,
 };
 use glam::Vec3;
 use libloading::Library;
@@ -74,9 +73,6 @@ struct Memory {
     now: AtomicIsize,
     peak: AtomicIsize,
 }
-
-/// The nearest hit: distance and triangle.
-pub(crate) type Nearest = Option<(f32, u32)>;
 
 impl Embree {
     /// Loads the library in a file.
@@ -233,67 +229,38 @@ impl EmbreeScene<'_> {
         }
     }
 
-    /// The nearest hit, by `rtcIntersect1`.
+    /// The nearest hit, by `rtcIntersect1`, left in `answer`.
     #[inline]
-    pub(crate) fn intersect(&self, ray: &RtcRay) -> Nearest {
-        let hit = RtcHit {
-            normal: [0.0; 3],
-            uv: [0.0; 2],
-            primitive: INVALID,
-            geometry: INVALID,
-            instance: INVALID,
-            instance_primitive: INVALID,
-        };
-        let mut ray_hit = RtcRayHit { ray: *ray, hit };
+    pub(crate) fn intersect(&self, ray: &RtcRay, answer: &mut RtcRayHit) {
+        answer.ray = *ray;
+        answer.hit.geometry = INVALID;
         // SAFETY: the scene is committed, the structure aligned; null stands for the default arguments.
-        unsafe { (self.embree.intersect)(self.scene, &mut ray_hit, null()) };
-        (ray_hit.hit.geometry != INVALID).then_some((ray_hit.ray.far, ray_hit.hit.primitive))
+        unsafe { (self.embree.intersect)(self.scene, answer, null()) };
     }
 
-    /// Whether anything is hit, by `rtcOccluded1`.
+    /// Whether anything is hit, by `rtcOccluded1`, left in `answer`.
     #[inline]
-    pub(crate) fn occluded(&self, ray: &RtcRay) -> bool {
-        let mut ray = *ray;
+    pub(crate) fn occluded(&self, ray: &RtcRay, answer: &mut RtcRay) {
+        *answer = *ray;
         // SAFETY: as in `intersect`.
-        unsafe { (self.embree.occluded)(self.scene, &mut ray, null()) };
-        ray.far == f32::NEG_INFINITY
+        unsafe { (self.embree.occluded)(self.scene, answer, null()) };
     }
 
-    /// The nearest hits of 16 rays, by `rtcIntersect16` for coherent rays.
+    /// The nearest hits of 16 rays, by `rtcIntersect16` for coherent rays, left in `answer`.
     #[inline]
-    pub(crate) fn intersect16(&self, rays: &RtcRay16) -> [Nearest; 16] {
-        let none = [INVALID; 16];
-        let hit = RtcHit16 {
-            normal: [[0.0; 16]; 3],
-            uv: [[0.0; 16]; 2],
-            primitive: none,
-            geometry: none,
-            instance: none,
-            instance_primitive: none,
-        };
-        let mut ray_hit = RtcRayHit16 {
-            ray: rays.clone(),
-            hit,
-        };
+    pub(crate) fn intersect16(&self, rays: &RtcRay16, answer: &mut RtcRayHit16) {
+        answer.ray = *rays;
+        answer.hit.geometry = [INVALID; 16];
         // SAFETY: as in `intersect`; the mask of lanes is 16 numbers, aligned as the rays' ids.
-        unsafe {
-            (self.embree.intersect16)(rays.valid(), self.scene, &mut ray_hit, &Arguments::COHERENT)
-        };
-        let RtcRayHit16 { ray, hit } = ray_hit;
-        std::array::from_fn(|lane| {
-            (hit.geometry[lane] != INVALID).then_some((ray.far[lane], hit.primitive[lane]))
-        })
+        unsafe { (self.embree.intersect16)(rays.valid(), self.scene, answer, &Arguments::COHERENT) }
     }
 
-    /// Whether each of 16 rays hits anything, by `rtcOccluded16` for coherent rays.
+    /// Whether each of 16 rays hits anything, by `rtcOccluded16` for coherent rays, left in `answer`.
     #[inline]
-    pub(crate) fn occluded16(&self, rays: &RtcRay16) -> [bool; 16] {
-        let mut ray = rays.clone();
+    pub(crate) fn occluded16(&self, rays: &RtcRay16, answer: &mut RtcRay16) {
+        *answer = *rays;
         // SAFETY: as in `intersect16`.
-        unsafe {
-            (self.embree.occluded16)(rays.valid(), self.scene, &mut ray, &Arguments::COHERENT)
-        };
-        ray.far.map(|far| far == f32::NEG_INFINITY)
+        unsafe { (self.embree.occluded16)(rays.valid(), self.scene, answer, &Arguments::COHERENT) }
     }
 }
 

@@ -5,7 +5,7 @@ use std::ffi::{c_int, c_uint, c_void};
 use std::ptr::null_mut;
 
 /// `RTCRay`.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 #[repr(C, align(16))]
 pub(crate) struct RtcRay {
     pub(super) origin: [f32; 3],
@@ -19,7 +19,7 @@ pub(crate) struct RtcRay {
 }
 
 /// `RTCHit`; the last two are for instances.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 #[repr(C, align(16))]
 pub(super) struct RtcHit {
     pub(super) normal: [f32; 3],
@@ -31,14 +31,15 @@ pub(super) struct RtcHit {
 }
 
 /// `RTCRayHit`.
+#[derive(Clone, Copy, Default)]
 #[repr(C, align(16))]
-pub(super) struct RtcRayHit {
+pub(crate) struct RtcRayHit {
     pub(super) ray: RtcRay,
     pub(super) hit: RtcHit,
 }
 
 /// `RTCRay16`.
-#[derive(Clone)]
+#[derive(Clone, Copy, Default)]
 #[repr(C, align(64))]
 pub(crate) struct RtcRay16 {
     pub(super) origin: [[f32; 16]; 3],
@@ -52,6 +53,7 @@ pub(crate) struct RtcRay16 {
 }
 
 /// `RTCHit16`.
+#[derive(Clone, Copy, Default)]
 #[repr(C, align(64))]
 pub(super) struct RtcHit16 {
     pub(super) normal: [[f32; 16]; 3],
@@ -63,8 +65,9 @@ pub(super) struct RtcHit16 {
 }
 
 /// `RTCRayHit16`.
+#[derive(Clone, Copy, Default)]
 #[repr(C, align(64))]
-pub(super) struct RtcRayHit16 {
+pub(crate) struct RtcRayHit16 {
     pub(super) ray: RtcRay16,
     pub(super) hit: RtcHit16,
 }
@@ -120,6 +123,47 @@ impl RtcRay {
             id: 0,
             flags: 0,
         }
+    }
+}
+
+/// The nearest hit: distance and triangle.
+pub(crate) type Nearest = Option<(f32, u32)>;
+
+impl RtcRay {
+    /// Whether `rtcOccluded1` found something; the distance and triangle stay untold.
+    pub(crate) fn found(&self) -> Nearest {
+        (self.far == f32::NEG_INFINITY).then_some((0.0, 0))
+    }
+}
+
+impl RtcRayHit {
+    /// What `rtcIntersect1` found.
+    pub(crate) fn nearest(&self) -> Nearest {
+        (self.hit.geometry != INVALID).then_some((self.ray.far, self.hit.primitive))
+    }
+}
+
+impl RtcRay16 {
+    /// What `rtcOccluded16` found on each lane that has a ray.
+    pub(crate) fn found(&self) -> impl Iterator<Item = Nearest> {
+        let found = |lane: usize| (self.far[lane] == f32::NEG_INFINITY).then_some((0.0, 0));
+        self.lanes().map(found)
+    }
+
+    /// The lanes that have a ray.
+    fn lanes(&self) -> impl Iterator<Item = usize> {
+        (0..16).filter(|&lane| self.id[lane] != 0)
+    }
+}
+
+impl RtcRayHit16 {
+    /// What `rtcIntersect16` found on each lane that has a ray.
+    pub(crate) fn nearest(&self) -> impl Iterator<Item = Nearest> {
+        let hit = &self.hit;
+        let nearest = |lane: usize| {
+            (hit.geometry[lane] != INVALID).then_some((self.ray.far[lane], hit.primitive[lane]))
+        };
+        self.ray.lanes().map(nearest)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Who answers: luch, its oracle, and Embree in three ways.
 
-use super::embree::{Build, Embree, EmbreeScene, Nearest, Quality};
-use super::embree_layouts::{RtcRay, RtcRay16};
+use super::embree::{Build, Embree, EmbreeScene, Quality};
+use super::embree_layouts::{Nearest, RtcRay, RtcRay16, RtcRayHit, RtcRayHit16};
 use super::scenes;
 use super::sets::{Kind, RaySet};
 use luch::accel::{Accel, Isa, Options, linear};
@@ -21,7 +21,7 @@ pub(crate) enum Engine {
     Embree,
     /// The same with the robust flag: watertight, as luch is.
     EmbreeRobust,
-    /// `rtcIntersect16` and `rtcOccluded16` with the coherent flag, 16 rays after another.
+    /// `rtcIntersect16` and `rtcOccluded16` with the coherent flag, 16 rays of a tile at a time: 4 x 4 pixels.
     Embree16,
     /// `luch::accel::linear`: every primitive in order.
     Linear,
@@ -109,13 +109,24 @@ const FEW: usize = 200;
 
 impl<'a> Round<'a> {
     pub(crate) fn new(kind: Kind, set: &'a RaySet, with_embree: bool) -> Round<'a> {
-        let rays = if with_embree { &set.rays[..] } else { &[] };
+        let batches = set.batches();
+        let for_embree = if with_embree { &batches[..] } else { &[] };
         let step = (set.rays.len() / FEW).max(1);
         Round {
             kind,
-            batches: set.batches(),
-            singles: rays.iter().map(RtcRay::of).collect(),
-            sixteens: rays.chunks(16).map(RtcRay16::of).collect(),
+            singles: for_embree
+                .iter()
+                .copied()
+                .flatten()
+                .map(RtcRay::of)
+                .collect(),
+            // No sixteen has rays of two tiles: lanes without a ray cost less than rays that go apart.
+            sixteens: for_embree
+                .iter()
+                .flat_map(|batch| batch.chunks(16))
+                .map(RtcRay16::of)
+                .collect(),
+            batches,
             few: set.rays.iter().copied().step_by(step).take(FEW).collect(),
         }
     }
@@ -263,26 +274,34 @@ impl<'a> Arena<'a> {
                 .collect(),
             Engine::Embree | Engine::EmbreeRobust => {
                 let scene = self.embree(engine)?;
+                let mut nearest = RtcRayHit::default();
+                let mut found = RtcRay::default();
                 let one = |ray| {
                     if any {
-                        flag(scene.occluded(ray))
+                        scene.occluded(ray, &mut found);
+                        found.found()
                     } else {
-                        scene.intersect(ray)
+                        scene.intersect(ray, &mut nearest);
+                        nearest.nearest()
                     }
                 };
                 round.singles.iter().map(one).collect()
             }
             Engine::Embree16 => {
                 let scene = self.embree(engine)?;
-                let sixteen = |rays| {
+                let mut nearest = RtcRayHit16::default();
+                let mut found = RtcRay16::default();
+                let mut answers = Vec::with_capacity(round.rays(engine));
+                for rays in &round.sixteens {
                     if any {
-                        scene.occluded16(rays).map(flag)
+                        scene.occluded16(rays, &mut found);
+                        answers.extend(found.found());
                     } else {
-                        scene.intersect16(rays)
+                        scene.intersect16(rays, &mut nearest);
+                        answers.extend(nearest.nearest());
                     }
-                };
-                let lanes = round.sixteens.iter().flat_map(sixteen);
-                lanes.take(round.rays(engine)).collect()
+                }
+                answers
             }
         };
         Some(answers)
@@ -309,26 +328,34 @@ fn luch_any(accel: &Accel, batches: &[&[Ray]]) {
     }
 }
 
-/// See `luch_nearest`.
+/// See `luch_nearest`. The answers stay in Embree's structures, where a renderer reads them.
 #[inline(never)]
 fn embree_one(scene: &EmbreeScene, rays: &[RtcRay], any: bool) {
+    let mut nearest = RtcRayHit::default();
+    let mut found = RtcRay::default();
     for ray in rays {
         if any {
-            black_box(scene.occluded(ray));
+            scene.occluded(ray, &mut found);
+            black_box(&found);
         } else {
-            black_box(scene.intersect(ray));
+            scene.intersect(ray, &mut nearest);
+            black_box(&nearest);
         }
     }
 }
 
-/// See `luch_nearest`.
+/// See `embree_one`.
 #[inline(never)]
 fn embree_sixteen(scene: &EmbreeScene, rays: &[RtcRay16], any: bool) {
+    let mut nearest = RtcRayHit16::default();
+    let mut found = RtcRay16::default();
     for sixteen in rays {
         if any {
-            black_box(scene.occluded16(sixteen));
+            scene.occluded16(sixteen, &mut found);
+            black_box(&found);
         } else {
-            black_box(scene.intersect16(sixteen));
+            scene.intersect16(sixteen, &mut nearest);
+            black_box(&nearest);
         }
     }
 }

@@ -121,11 +121,18 @@ pub(crate) fn make(
     [set(3), set(0), set(1), set(2)]
 }
 
-/// The rays through the middles of a tile's pixels, row by row.
+/// The rays through the middles of a tile's pixels, square after square: 16 that follow one another are 4 x 4 pixels.
 fn tile(view: &View, [left, top]: [u32; 2], [width, height]: [u32; 2]) -> Vec<Ray> {
-    let rows = top..(top + TILE).min(height);
-    let pixels = rows.flat_map(|j| (left..(left + TILE).min(width)).map(move |i| (i, j)));
+    let pixels = (0..TILE * TILE).map(|n| {
+        let (square, within) = (n / 16, n % 16);
+        let across = TILE / 4;
+        (
+            left + square % across * 4 + within % 4,
+            top + square / across * 4 + within / 4,
+        )
+    });
     pixels
+        .filter(|&(i, j)| i < width && j < height)
         .map(|(i, j)| view.primary_ray(f64::from(i) + 0.5, f64::from(j) + 0.5))
         .collect()
 }
