@@ -149,7 +149,7 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::leaf_size)]
     pub(super) leaf_size: Option<NonZeroU8>,
 
-    /// Say more: the causes of an error, the memory of the tree, each file that was read
+    /// Say more: the causes of an error, each file that was read
     #[arg(short, long, conflicts_with = "quiet")]
     pub(super) verbose: bool,
 
