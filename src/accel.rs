@@ -5,94 +5,27 @@
 //! camera's through a tile of pixels, those from one light.
 
 mod build;
+mod items;
 #[expect(unsafe_code, reason = "registers; every block says why it is sound")]
 mod kernel;
 pub mod linear;
+mod options;
 mod primitive;
 mod slab;
 mod tree;
 mod wide;
 
 pub use kernel::{Isa, IsaError};
+pub use options::{Builder, Layout, Options, Preset};
 
-use crate::geometry::{Bounds, Hit, Plane};
+use crate::geometry::{Hit, Plane};
 use crate::ray::Ray;
 use crate::scene::{InstanceSpace, PlacedInstance, Scene};
+use items::{mesh_tree, world_tree};
 use kernel::Scratch;
-use rayon::prelude::*;
 use std::cell::RefCell;
-use std::num::NonZeroU8;
 use std::time::{Duration, Instant};
-use tree::{Item, Number, Tree};
-use wide::Kind;
-
-/// How a tree is built.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// How much time the build takes for how good a tree.
-    pub preset: Preset,
-    /// The most primitives a leaf may have, at most 16; 8 where it is `None`.
-    pub leaf_size: Option<NonZeroU8>,
-    /// Who builds it.
-    pub builder: Builder,
-    /// How leaves lie in memory.
-    pub layout: Layout,
-    /// The kernels that search.
-    pub isa: Isa,
-    /// Whether rays of a batch that go the same way are searched for together.
-    pub packets: bool,
-}
-
-impl Default for Options {
-    fn default() -> Options {
-        Options {
-            preset: Preset::default(),
-            leaf_size: None,
-            builder: Builder::default(),
-            layout: Layout::default(),
-            isa: Isa::detect(),
-            packets: true,
-        }
-    }
-}
-
-/// How much time the build takes for how good a tree: obvhs's presets.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Preset {
-    /// Seconds count, rays do not.
-    Fastest,
-    /// Between its neighbours.
-    VeryFast,
-    /// Between its neighbours.
-    Fast,
-    /// The best total for one picture.
-    #[default]
-    Medium,
-    /// Between its neighbours.
-    Slow,
-    /// For many pictures of one scene.
-    VerySlow,
-}
-
-/// Who builds the tree.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Builder {
-    /// One tree of joined neighbours, one split from the top, or the better of both, by preset.
-    #[default]
-    Own,
-    /// The neighbours that obvhs joins, to compare.
-    Obvhs,
-}
-
-/// How leaves lie in memory.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Layout {
-    /// Triangles in blocks of eight, each tested at once.
-    #[default]
-    Wide,
-    /// Triangles in blocks of four: less room that is not used, and a little slower.
-    Small,
-}
+use tree::Tree;
 
 /// A scene's primitives, ready to be searched.
 ///
@@ -251,81 +184,4 @@ impl Accel {
             build_time: Duration::ZERO,
         }
     }
-}
-
-/// The tree over the triangles of a shared mesh, numbered from 0.
-fn mesh_tree(scene: &Scene, mesh: u32, options: &Options) -> Tree {
-    let mesh = scene.mesh(mesh);
-    let triangles = 0..mesh.triangles.len() as u32;
-    let bounds: Vec<Bounds> = triangles
-        .into_par_iter()
-        .map(|index| mesh.triangle(index).bounds())
-        .collect();
-    let topology = build::build(&bounds, |_| Kind::Triangles, options);
-    Tree::new(topology, mesh.bounds().extent(), options.layout, |index| {
-        Item::Triangle(mesh.triangle(index), Number::new(index, true))
-    })
-}
-
-/// The tree over everything in the world that has bounds: spheres, then each instance's triangles or the instance itself.
-fn world_tree(scene: &Scene, options: &Options) -> Tree {
-    let spheres = scene.spheres().len() as u32;
-    let opaque = |material: u32| scene.material(material).is_opaque();
-    // The first item of each instance.
-    let mut first_items = Vec::with_capacity(scene.instances().len());
-    let mut bounds: Vec<Bounds> = scene.spheres().iter().map(|s| s.shape.bounds()).collect();
-    for instance in scene.instances() {
-        first_items.push(bounds.len() as u32);
-        match &instance.space {
-            Some(space) => bounds.push(space.bounds),
-            None => {
-                let mesh = scene.mesh(instance.mesh);
-                bounds.par_extend(
-                    (0..mesh.triangles.len() as u32)
-                        .into_par_iter()
-                        .map(|index| mesh.triangle(index).bounds()),
-                );
-            }
-        }
-    }
-    let instance_of = |item: u32| first_items.partition_point(|&first| first <= item) - 1;
-    let kind = |item: u32| {
-        if item < spheres {
-            Kind::Spheres
-        } else if scene.instances()[instance_of(item)].space.is_some() {
-            Kind::Instances
-        } else {
-            Kind::Triangles
-        }
-    };
-    let extent = bounds
-        .iter()
-        .copied()
-        .fold(Bounds::EMPTY, Bounds::union)
-        .extent();
-    let topology = build::build(&bounds, kind, options);
-    Tree::new(topology, extent, options.layout, |item| {
-        if item < spheres {
-            let sphere = &scene.spheres()[item as usize];
-            return Item::Sphere(sphere.shape, Number::new(item, opaque(sphere.material)));
-        }
-        let index = instance_of(item);
-        let instance = &scene.instances()[index];
-        let opaque = opaque(instance.material);
-        match instance.space {
-            Some(space) => Item::Instance(SharedInstance {
-                space,
-                mesh: instance.mesh,
-                first_primitive: instance.first_primitive,
-                opaque,
-            }),
-            None => {
-                let triangle = item - first_items[index];
-                Item::Triangle(
-                    scene.mesh(instance.mesh).triangle(triangle),
-                    Number::new(instance.first_primitive + triangle, opaque),
-                )
-            }
-        }
-    })
 }

@@ -4,6 +4,7 @@
 //! machine has it.
 
 mod alone;
+mod answer;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
@@ -11,6 +12,7 @@ mod avx512;
 mod batch;
 mod equation;
 mod float;
+mod interval;
 mod isa;
 mod packet;
 mod rays;

@@ -1,8 +1,9 @@
 //! Rays of a batch that go on alone.
 
+use super::answer::Question;
 use super::float::{Machine, Task};
 use super::rays::Rays;
-use super::single::{self, Question, Waiting};
+use super::single::{self, Waiting};
 use crate::accel::Accel;
 use crate::accel::primitive::Probe;
 use crate::accel::wide::Reference;

@@ -1,10 +1,11 @@
 //! Rays in, answers out: 64 at a time, those that go the same way together, the others alone.
 
 use super::alone::Search;
+use super::answer::{Any, Closest, Question};
 use super::float::{Machine, Task};
 use super::packet::{self, Waiting64};
 use super::rays::{Rays, SIZE};
-use super::single::{Any, Closest, Question, Waiting};
+use super::single::Waiting;
 use crate::accel::wide::Reference;
 use crate::accel::{Accel, primitive};
 use crate::geometry::Hit;

@@ -1,7 +1,7 @@
 //! Up to 64 rays side by side, and what they met so far; which of them go the same way.
 
+use super::answer::Best;
 use super::float::{Float, Machine};
-use super::single::Best;
 use crate::accel::slab::RELATIVE_PAD;
 use crate::geometry::Hit;
 use crate::ray::Ray;

@@ -3,67 +3,18 @@
 //! A node's eight children are tested at once; the nearest that is met is next, the others wait on the stack, nearest
 //! on top (Wald, Benthin and Boulos 2008, "Getting Rid of Packets").
 
+use super::answer::{Best, Question};
 use super::equation::{Crossing, box_of, cross, interval, minus, pick, rows, spread};
 use super::float::{Float, Machine};
 use crate::accel::primitive::{Probe, sphere};
 use crate::accel::tree::{SphereBlock, Tree, TriangleBlock, blocks};
 use crate::accel::wide::{Kind, Node, Reference};
-use crate::geometry::Hit;
-
-/// The nearest hit so far, or none: then `t` is the end of the ray.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Best {
-    pub(super) t: f32,
-    /// [`Best::NONE`] as long as there is none.
-    pub(super) number: u32,
-    pub(super) barycentric: [f32; 2],
-}
 
 /// What waits to be visited, and where the ray enters it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Waiting {
     reference: Reference,
     near: f32,
-}
-
-/// The question: the nearest hit, or whether there is any opaque one.
-pub(super) trait Question {
-    const ANY: bool;
-}
-
-pub(super) struct Closest;
-pub(super) struct Any;
-
-impl Question for Closest {
-    const ANY: bool = false;
-}
-
-impl Question for Any {
-    const ANY: bool = true;
-}
-
-impl Best {
-    pub(super) const NONE: u32 = u32::MAX;
-
-    pub(super) fn hit(&self) -> Option<Hit> {
-        (self.number != Best::NONE).then_some(Hit {
-            t: self.t,
-            primitive: self.number,
-            barycentric: self.barycentric,
-        })
-    }
-
-    /// Takes a hit that comes before.
-    #[inline(always)]
-    pub(super) fn offer(&mut self, t: f32, number: u32, barycentric: [f32; 2]) {
-        if t < self.t || (t == self.t && number < self.number) {
-            *self = Best {
-                t,
-                number,
-                barycentric,
-            };
-        }
-    }
 }
 
 impl Waiting {

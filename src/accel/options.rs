@@ -1,0 +1,72 @@
+//! What can be chosen about search; no answer depends on it.
+
+use super::Isa;
+use std::num::NonZeroU8;
+
+/// How a tree is built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// How much time the build takes for how good a tree.
+    pub preset: Preset,
+    /// The most primitives a leaf may have, at most 16; 8 where it is `None`.
+    pub leaf_size: Option<NonZeroU8>,
+    /// Who builds it.
+    pub builder: Builder,
+    /// How leaves lie in memory.
+    pub layout: Layout,
+    /// The kernels that search.
+    pub isa: Isa,
+    /// Whether rays of a batch that go the same way are searched for together.
+    pub packets: bool,
+}
+
+impl Default for Options {
+    fn default() -> Options {
+        Options {
+            preset: Preset::default(),
+            leaf_size: None,
+            builder: Builder::default(),
+            layout: Layout::default(),
+            isa: Isa::detect(),
+            packets: true,
+        }
+    }
+}
+
+/// How much time the build takes for how good a tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// Seconds count, rays do not.
+    Fastest,
+    /// Between its neighbours.
+    VeryFast,
+    /// Between its neighbours.
+    Fast,
+    /// The best total for one picture.
+    #[default]
+    Medium,
+    /// Between its neighbours.
+    Slow,
+    /// For many pictures of one scene.
+    VerySlow,
+}
+
+/// Who builds the tree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Builder {
+    /// One tree of joined neighbours, one split from the top, or the better of both, by preset.
+    #[default]
+    Own,
+    /// The neighbours that obvhs joins, to compare.
+    Obvhs,
+}
+
+/// How leaves lie in memory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Layout {
+    /// Triangles in blocks of eight, each tested at once.
+    #[default]
+    Wide,
+    /// Triangles in blocks of four: less room that is not used, and a little slower.
+    Small,
+}
