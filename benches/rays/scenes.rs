@@ -52,7 +52,7 @@ pub(crate) fn make(name: &str) -> Result<Scene, String> {
     let landscape = |cells| {
         generate::mesh_scene(
             generate::terrain(cells, 1),
-            camera([0.9, 0.75, 1.1], [0.0, -0.15, -0.1], 0.9),
+            camera([0.0, 1.1, 0.95], [0.0, -0.1, 0.05], 0.58),
         )
     };
     let description = match name {
@@ -61,7 +61,7 @@ pub(crate) fn make(name: &str) -> Result<Scene, String> {
         "terrain-1m" => landscape(707),
         "hair" => generate::mesh_scene(
             generate::hair(50_000, 10, 2),
-            camera([0.0, 0.6, 2.0], [0.0, 0.0, 0.0], 0.9),
+            camera([0.0, 0.3, 1.5], [0.0, 0.0, 0.0], 0.6),
         ),
         "terrain-8m" => landscape(2000),
         file => return open(Path::new(file)),
