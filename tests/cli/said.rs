@@ -19,7 +19,7 @@ fn each_choice_and_each_file_is_said_once() {
     let rest: Vec<&str> = ran.out().lines().skip(3).collect();
     assert_eq!(rest.len(), 4, "{rest:?}");
     assert!(
-        rest[0].starts_with("1 triangle, 1 node, 1 leaf, depth 1, SAH cost "),
+        rest[0].starts_with("1 triangle, 1 node, 1 leaf, depth 1, 576 B, SAH cost "),
         "{}",
         rest[0]
     );
