@@ -1,9 +1,15 @@
 //! Search: every fast path gives the bits of the oracle.
 
+mod batches;
+mod kernels;
+mod memory;
+mod odd;
+mod watertight;
+
 use crate::common::scenes::{self, Named};
 use glam::{DAffine3, DQuat, DVec3, Vec3};
-use luch::accel::{Accel, Isa, Options, Preset, linear};
-use luch::generate::Random;
+use luch::accel::{Accel, Options, Preset, linear};
+use luch::generate::{self, Random};
 use luch::geometry::Hit;
 use luch::ray::Ray;
 use luch::scene::{Instance, Scene};
@@ -11,97 +17,6 @@ use luch::scene::{Instance, Scene};
 /// Bits, so that a NaN or a -0.0 would show.
 fn bits(hit: Option<Hit>) -> Option<(u32, u32, [u32; 2])> {
     hit.map(|h| (h.t.to_bits(), h.primitive, h.barycentric.map(f32::to_bits)))
-}
-
-/// Every instruction set that this machine has, each with packets and without.
-fn kernels() -> Vec<(Isa, bool)> {
-    let both = |isa| [(isa, false), (isa, true)];
-    Isa::available().into_iter().flat_map(both).collect()
-}
-
-fn assert_equals_oracle(name: &str, scene: &Scene, rays: &[Ray]) {
-    let presets = [
-        Preset::Fastest,
-        Preset::VeryFast,
-        Preset::Fast,
-        Preset::Medium,
-        Preset::Slow,
-        Preset::VerySlow,
-    ];
-    let leaf_sizes = [
-        None,
-        std::num::NonZeroU8::new(1),
-        std::num::NonZeroU8::new(16),
-    ];
-    let expected: Vec<_> = rays
-        .iter()
-        .map(|ray| bits(linear::intersect(scene, ray)))
-        .collect();
-    let expected_occluded: Vec<_> = rays
-        .iter()
-        .map(|ray| linear::occluded(scene, ray))
-        .collect();
-    for preset in presets {
-        for leaf_size in leaf_sizes {
-            for (isa, packets) in kernels() {
-                let options = Options {
-                    preset,
-                    leaf_size,
-                    isa,
-                    packets,
-                    ..Options::default()
-                };
-                let accel = Accel::build(scene, &options);
-                let (mut hits, mut occluded) = (Vec::new(), Vec::new());
-                accel.intersect_all(rays, &mut hits);
-                accel.occluded_all(rays, &mut occluded);
-                for (index, ray) in rays.iter().enumerate() {
-                    let at = || format!("{name}, {options:?}: {ray:?}");
-                    assert_eq!(bits(hits[index]), expected[index], "{}", at());
-                    assert_eq!(occluded[index], expected_occluded[index], "{}", at());
-                }
-            }
-        }
-    }
-    let accel = Accel::build(scene, &Options::default());
-    for ray in rays {
-        assert_eq!(
-            bits(accel.intersect(ray)),
-            bits(linear::intersect(scene, ray)),
-            "one ray is a batch of one"
-        );
-        assert_eq!(accel.occluded(ray), linear::occluded(scene, ray));
-    }
-}
-
-#[test]
-fn every_tree_equals_the_oracle() {
-    for Named { name, scene } in scenes::all() {
-        let scene = scene.expect(name);
-        assert_equals_oracle(name, &scene, &scenes::nasty_rays(&scene, 300));
-    }
-}
-
-#[test]
-fn any_hit_agrees_with_closest_hit_where_everything_is_opaque() {
-    for Named { name, scene } in scenes::all() {
-        let scene = scene.expect(name);
-        if scene
-            .materials()
-            .iter()
-            .any(|material| !material.is_opaque())
-        {
-            continue;
-        }
-        let accel = Accel::build(&scene, &Options::default());
-        for ray in scenes::nasty_rays(&scene, 300) {
-            assert_eq!(
-                accel.occluded(&ray),
-                accel.intersect(&ray).is_some(),
-                "{name}: {ray:?}"
-            );
-        }
-    }
 }
 
 #[test]
@@ -138,33 +53,6 @@ fn coincident_triangles_are_met_one_after_another() {
 }
 
 #[test]
-fn many_identical_triangles_are_built_in_proportion() {
-    let scene = scenes::coincident_triangles(100_000).expect("a scene");
-    let accel = Accel::build(&scene, &Options::default());
-    assert_eq!(accel.statistics().nodes, 1);
-    let ray = Ray::new(Vec3::new(0.2, 0.2, 1.0), Vec3::NEG_Z, 0.0, f32::INFINITY);
-    assert_eq!(accel.intersect(&ray).map(|hit| hit.primitive), Some(0));
-}
-
-#[test]
-fn no_ray_from_inside_leaves_a_closed_mesh() {
-    // Aimed at vertices and at points of edges, where neighbours must agree.
-    let scene = scenes::icosphere_scene(3, DAffine3::IDENTITY).expect("a scene");
-    let accel = Accel::build(&scene, &Options::default());
-    let mesh = scene.mesh(0);
-    let mut random = Random::new(7);
-    for corners in &mesh.triangles {
-        let [a, b, _] = corners.map(|i| mesh.positions[i as usize]);
-        for target in [a, (a + b) * 0.5, a + (b - a) * random.next_f32()] {
-            for from in [Vec3::ZERO, random.in_cube() * 0.5] {
-                let ray = Ray::new(from, (target - from).normalize(), 0.0, f32::INFINITY);
-                assert!(accel.intersect(&ray).is_some(), "{ray:?} slipped through");
-            }
-        }
-    }
-}
-
-#[test]
 fn shared_instances_look_like_copies_in_the_world() {
     let place = |i: usize| {
         let turn = DQuat::from_rotation_y(i as f64);
@@ -183,7 +71,7 @@ fn shared_instances_look_like_copies_in_the_world() {
             .iter()
             .all(|instance| instance.space.is_some())
     );
-    let mut copies = scenes::instanced_description(5, &places);
+    let mut copies = scenes::instanced(generate::icosphere(5), &places);
     copies.meshes = vec![copies.meshes[0].clone(); places.len()];
     let renumbered = |(mesh, instance): (u32, Instance)| Instance { mesh, ..instance };
     copies.instances = (0..).zip(copies.instances).map(renumbered).collect();
@@ -227,9 +115,17 @@ fn statistics_count_what_was_built() {
     };
     let accel = Accel::build(&scene, &one_each);
     let statistics = accel.statistics();
-    // A binary tree over 80 leaves.
-    assert_eq!((statistics.leaves, statistics.nodes), (80, 159));
-    assert!(statistics.depth >= 8 && statistics.bytes > 80 * 36 && statistics.sah_cost > 1.0);
+    // Nodes of two to eight children.
+    let nodes = statistics.nodes;
+    assert!(
+        statistics.leaves == 80 && (80 / 8..80 / 2).contains(&nodes),
+        "{statistics:?}"
+    );
+    // At least as deep as a full tree, and not a chain.
+    assert!((3..=10).contains(&statistics.depth), "{statistics:?}");
+    // A block for each leaf.
+    assert_eq!(statistics.bytes, nodes * 256 + 80 * 320);
+    assert!(statistics.sah_cost > 1.0);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod help;
 mod info;
 #[cfg(unix)]
 mod interrupt;
+mod isa;
 mod outputs;
 mod pipes;
 mod said;

@@ -52,7 +52,8 @@ pub(crate) fn all() -> Vec<Named> {
             icosphere_scene(2, DAffine3::from_translation(DVec3::splat(1e4))),
         ),
         named("planes, spheres and triangles, some transparent", mixed()),
-        named("instances", instanced_icospheres(5, &three_places())),
+        named("copies", instanced_icospheres(2, &places())),
+        named("instances", instanced_icospheres(5, &places())),
     ]
 }
 
@@ -254,17 +255,22 @@ fn mixed() -> Result<Scene, SceneError> {
     Scene::new(scene)
 }
 
-fn three_places() -> Vec<DAffine3> {
+/// Some mirror, and the last makes a mesh flat.
+fn places() -> Vec<DAffine3> {
     let place = |i: f64| {
         let scale = DVec3::new(1.0 + i, -0.5, 2.0);
         let turn = glam::DQuat::from_rotation_z(i);
         DAffine3::from_scale_rotation_translation(scale, turn, DVec3::new(i, i * 0.3, 0.0))
     };
-    [0.0, 1.0, 2.0].map(place).to_vec()
+    let flat = DAffine3::from_scale(DVec3::new(2.0, 0.0, 2.0));
+    let mut places = [0.0, 1.0, 2.0, 3.0].map(place).to_vec();
+    places.push(flat);
+    places
 }
 
-pub(crate) fn instanced_description(subdivisions: u32, places: &[DAffine3]) -> SceneDescription {
-    let mut scene = generate::mesh_scene(generate::icosphere(subdivisions), camera());
+/// A mesh in several places.
+pub(crate) fn instanced(mesh: Mesh, places: &[DAffine3]) -> SceneDescription {
+    let mut scene = generate::mesh_scene(mesh, camera());
     let instance = |&to_world| Instance {
         name: String::new(),
         mesh: 0,
@@ -280,5 +286,5 @@ pub(crate) fn instanced_icospheres(
     subdivisions: u32,
     places: &[DAffine3],
 ) -> Result<Scene, SceneError> {
-    Scene::new(instanced_description(subdivisions, places))
+    Scene::new(instanced(generate::icosphere(subdivisions), places))
 }
