@@ -3,7 +3,7 @@
 use super::batches::{self, Batch};
 use super::bits;
 use crate::common::scenes::{self, Named};
-use luch::accel::{Accel, Isa, Layout, Options, Preset, linear};
+use luch::accel::{Accel, Builder, Isa, Layout, Options, Preset, linear};
 use luch::scene::Scene;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -40,12 +40,16 @@ fn trees(scene: &Scene) -> Vec<(Preset, Option<u8>)> {
 fn ways(scene: &Scene) -> Vec<Options> {
     let mut ways = Vec::new();
     for (preset, leaf_size) in trees(scene) {
-        for layout in [Layout::Wide, Layout::Small] {
+        for (layout, builder) in [
+            (Layout::Wide, Builder::Own),
+            (Layout::Small, Builder::Obvhs),
+        ] {
             for isa in Isa::available() {
                 for packets in [false, true] {
                     ways.push(Options {
                         preset,
                         leaf_size: leaf_size.and_then(NonZeroU8::new),
+                        builder,
                         layout,
                         isa,
                         packets,
