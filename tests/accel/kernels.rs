@@ -49,6 +49,7 @@ fn ways(scene: &Scene) -> Vec<Options> {
                         layout,
                         isa,
                         packets,
+                        ..Options::default()
                     });
                 }
             }
