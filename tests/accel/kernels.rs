@@ -53,6 +53,7 @@ fn ways(scene: &Scene) -> Vec<Options> {
                         layout,
                         isa,
                         packets,
+                        ..Options::default()
                     });
                 }
             }
