@@ -28,7 +28,7 @@ impl<F: Float<8>> Interval<F> {
             // The origin that makes the interval begin earliest and end last.
             let (near, far) = (&rays.to_near[axis], &rays.to_far[axis]);
             let (to_near, to_far) = if rays.common_origin {
-                (near.0[0][0], far.0[0][0])
+                (near.get(bundle.first()), far.get(bundle.first()))
             } else if bundle.near[axis] == 0 {
                 (near.greatest::<F16>(members), far.least::<F16>(members))
             } else {

@@ -11,7 +11,7 @@ use super::answer::Question;
 use super::equation::{box_of, cross, interval, minus, pick, rows, spread};
 use super::float::{Float, Machine};
 use super::interval::Interval;
-use super::rays::{Bundle, three};
+use super::rays::{Bundle, get, three};
 use super::single::first;
 use crate::accel::tree::TriangleBlock;
 use crate::accel::wide::{Kind, Node, Reference};
@@ -64,8 +64,8 @@ impl<M: Machine, const COMMON: bool> Walk<'_, '_, M, COMMON> {
             pick(&corners, self.bundle.far),
         );
         if COMMON {
-            near = minus(near, rays.first(&rays.to_near));
-            far = minus(far, rays.first(&rays.to_far));
+            near = minus(near, get(&rays.to_near, self.bundle.first()));
+            far = minus(far, get(&rays.to_far, self.bundle.first()));
         }
         let near = spread::<M::F16, 16>(near);
         let far = spread::<M::F16, 16>(far);
@@ -113,7 +113,7 @@ impl<M: Machine, const COMMON: bool> Walk<'_, '_, M, COMMON> {
             far[axis].store(&mut prepared.far[axis]);
             let from = self.bundle.axes[axis];
             let origin = if COMMON {
-                self.search.rays.origin[from].0[0][0]
+                self.search.rays.origin[from].get(self.bundle.first())
             } else {
                 0.0
             };

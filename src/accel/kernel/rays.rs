@@ -51,11 +51,19 @@ pub(super) struct Bundle {
     pub(super) axes: [usize; 3],
 }
 
+impl Bundle {
+    /// The lane of its first ray.
+    #[inline(always)]
+    pub(super) fn first(&self) -> usize {
+        self.members.trailing_zeros() as usize
+    }
+}
+
 impl Row {
     const ZERO: Row = Row([[0.0; 16]; 4]);
 
     #[inline(always)]
-    fn get(&self, lane: usize) -> f32 {
+    pub(super) fn get(&self, lane: usize) -> f32 {
         self.0[lane >> 4 & 3][lane & 15]
     }
 
@@ -112,6 +120,12 @@ impl Row {
 fn floats(ray: &Ray) -> &[f32; 8] {
     // SAFETY: `Ray` is `repr(C)` and begins with two `Vec3`, which are three floats each, and two floats.
     unsafe { &*std::ptr::from_ref(ray).cast() }
+}
+
+/// What three rows have in a lane.
+#[inline(always)]
+pub(super) fn get(rows: &[Row; 3], lane: usize) -> [f32; 3] {
+    [rows[0].get(lane), rows[1].get(lane), rows[2].get(lane)]
 }
 
 /// The groups of three rows.
@@ -188,7 +202,7 @@ impl Rays {
     fn prepare<M: Machine>(&mut self, extent: f32) {
         let zero = M::F16::splat(0.0);
         let (least, greatest) = (M::F16::splat(f32::MIN), M::F16::splat(f32::MAX));
-        let first = self.first(&self.origin);
+        let first = get(&self.origin, 0);
         let mut same = 0xffff;
         self.backward = [0; 3];
         self.longest = [0; 3];
@@ -275,12 +289,6 @@ impl Rays {
             spread += greatest - slope.least::<M::F16>(bundle.members);
         }
         spread < WIDEST
-    }
-
-    /// What three rows have for the first ray.
-    #[inline(always)]
-    pub(super) fn first(&self, rows: &[Row; 3]) -> [f32; 3] {
-        [rows[0].0[0][0], rows[1].0[0][0], rows[2].0[0][0]]
     }
 
     /// What a ray met so far.
