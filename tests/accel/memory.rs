@@ -20,7 +20,7 @@ fn bytes_per_triangle(scene: &Scene, layout: Layout) -> f64 {
 fn a_triangle_takes_at_most_90_bytes_and_78_in_the_small_layout() {
     for (name, scene) in [
         ("terrain", scenes::mesh_scene(generate::terrain(354, 1))),
-        ("hair", scenes::mesh_scene(generate::hair(1000, 50, 1))),
+        ("hair", scenes::mesh_scene(generate::hair(5_000, 10, 2))),
         (
             "interior",
             Scene::new(generate::interior(Decoration::Plain)),

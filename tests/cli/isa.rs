@@ -20,14 +20,14 @@ fn render(folder: &Folder, isa: Option<&str>, to: &str) -> Ran {
 #[test]
 fn every_instruction_set_gives_the_same_file() {
     let folder = Folder::with_scene_and_model();
-    let ran = render(&folder, None, "default.exr");
+    let ran = render(&folder, None, "picture.exr");
     assert_eq!(ran.code, Some(0), "{}", ran.err);
-    let expected = folder.read("default.exr");
+    let expected = folder.read("picture.exr");
     assert!(expected.starts_with(EXR));
     for isa in Isa::available() {
-        let ran = render(&folder, Some(isa.name()), "asked.exr");
+        let ran = render(&folder, Some(isa.name()), "picture.exr");
         assert_eq!(ran.code, Some(0), "{isa}: {}", ran.err);
-        assert!(folder.read("asked.exr") == expected, "{isa}");
+        assert!(folder.read("picture.exr") == expected, "{isa}");
     }
 }
 
