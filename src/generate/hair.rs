@@ -14,7 +14,7 @@ pub fn hair(strands: u32, segments: u32, seed: u64) -> Mesh {
     for _ in 0..strands {
         let mut point = random.direction() * 0.5;
         let mut along = point.normalize();
-        let width = along.any_orthonormal_vector() * 0.0014;
+        let width = along.any_orthonormal_vector() * 0.0012;
         for segment in 0..=segments {
             let first = mesh.positions.len() as u32;
             mesh.positions.extend([point - width, point + width]);
@@ -22,8 +22,8 @@ pub fn hair(strands: u32, segments: u32, seed: u64) -> Mesh {
                 mesh.triangles
                     .extend([[first - 2, first - 1, first], [first, first - 1, first + 1]]);
             }
-            along = (along + random.direction() * 0.17 + Vec3::NEG_Y * 0.05).normalize();
-            point += along * (0.45 / segments as f32);
+            along = (along + random.direction() * 0.18 + Vec3::NEG_Y * 0.05).normalize();
+            point += along * (0.48 / segments as f32);
         }
     }
     mesh
