@@ -32,7 +32,7 @@ impl Costs {
     pub(super) fn new(leaves: &[Node], options: &Options) -> Costs {
         // The weights make 72 to 85 bytes a triangle of terrain, a room and hair; in small blocks at most 75.
         let (block, weight) = match options.layout {
-            Layout::Wide => (8, 0.15),
+            Layout::Wide => (8, 0.2),
             Layout::Small => (4, 0.3),
         };
         Costs {
