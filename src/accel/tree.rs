@@ -141,6 +141,10 @@ pub(super) fn blocks(reference: Reference) -> std::ops::Range<usize> {
 }
 
 /// The blocks of a leaf of triangles, eight at a time.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "it lives on the stack, for one leaf"
+)]
 pub(super) enum LeafBlocks<'a> {
     Eights(std::slice::Iter<'a, TriangleBlock>),
     Fours(std::slice::Chunks<'a, Triangles<4>>, TriangleBlock),

@@ -53,7 +53,6 @@ fn ways(scene: &Scene) -> Vec<Options> {
                         layout,
                         isa,
                         packets,
-                        ..Options::default()
                     });
                 }
             }

@@ -251,10 +251,9 @@ impl Rays {
         };
         let mut members = left & self.longest[longest];
         let mut near = [0; 3];
-        for axis in 0..3 {
-            let backward = self.backward[axis];
-            near[axis] = usize::from(backward & first != 0);
-            members &= if near[axis] == 1 { backward } else { !backward };
+        for (near, &backward) in near.iter_mut().zip(&self.backward) {
+            *near = usize::from(backward & first != 0);
+            members &= if *near == 1 { backward } else { !backward };
         }
         // What goes on after a surface has a rule of its own for equal distances.
         if self.alone != 0 {

@@ -296,12 +296,11 @@ fn spheres<M: Machine, Q: Question>(
     best: &mut Best,
 ) -> bool {
     let radius = M::F8::load(&block.radius);
-    let mut corners = [[radius; 3]; 2];
-    for axis in 0..3 {
-        let center = M::F8::load(&block.center[axis]);
-        corners[0][axis] = center - radius;
-        corners[1][axis] = center + radius;
-    }
+    let [x, y, z] = rows::<M::F8, 8>(&block.center);
+    let corners = [
+        [x - radius, y - radius, z - radius],
+        [x + radius, y + radius, z + radius],
+    ];
     let (enter, leave) = ray.interval(&corners);
     let end = M::F8::splat(best.t);
     let mut met = enter.max(ray.t_min).le(leave.min(end));
