@@ -20,7 +20,7 @@ pub use options::{Builder, Layout, Options, Preset};
 
 use crate::geometry::{Hit, Plane};
 use crate::ray::Ray;
-use crate::scene::{InstanceSpace, PlacedInstance, Scene};
+use crate::scene::{InstanceSpace, Scene};
 use items::{mesh_tree, world_tree};
 use kernel::Scratch;
 use std::cell::RefCell;
@@ -72,8 +72,8 @@ pub struct Statistics {
     pub depth: usize,
     /// Nodes and primitives as they lie in memory.
     pub bytes: usize,
-    /// The surface-area cost of the tree over the world: how many nodes and how many blocks of eight primitives a
-    /// random line through it meets (MacDonald and Booth 1990, "Heuristics for ray tracing using space subdivision").
+    /// The surface-area cost of the tree over the world, a node and a primitive costing 1 each
+    /// (MacDonald and Booth 1990, "Heuristics for ray tracing using space subdivision").
     pub sah_cost: f32,
     /// From the scene to the finished trees.
     pub build_time: Duration,
@@ -97,22 +97,16 @@ impl Accel {
                 opaque: opaque(p.material),
             })
             .collect();
-        let shared = |instance: &&PlacedInstance| instance.space.is_some();
-        let meshes = (0..scene.meshes().len() as u32).map(|mesh| {
-            let is_shared = scene
-                .instances()
-                .iter()
-                .filter(shared)
-                .any(|i| i.mesh == mesh);
-            if is_shared {
-                mesh_tree(scene, mesh, options)
-            } else {
-                Tree::default()
+        let mut meshes = vec![Tree::default(); scene.meshes().len()];
+        for instance in scene.instances().iter().filter(|i| i.space.is_some()) {
+            let tree = &mut meshes[instance.mesh as usize];
+            if tree.nodes.is_empty() {
+                *tree = mesh_tree(scene, instance.mesh, options);
             }
-        });
+        }
         let mut accel = Accel {
             planes,
-            meshes: meshes.collect(),
+            meshes,
             world: world_tree(scene, options),
             isa: options.isa,
             packets: options.packets,

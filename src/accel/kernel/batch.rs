@@ -122,9 +122,9 @@ fn search<M: Machine, Q: Question>(accel: &Accel, chunk: &[Ray], scratch: &mut S
         return;
     }
     while left != 0 {
-        let mut bundle = search.rays.of_one_class(left);
+        let bundle = search.rays.of_one_class(left);
         left &= !bundle.members;
-        if bundle.members.count_ones() < LEAST || !search.rays.make_ready::<M>(&mut bundle) {
+        if bundle.members.count_ones() < LEAST || !search.rays.make_ready::<M>(&bundle) {
             search.alone::<M, Q>(Reference::ROOT, bundle.members);
         } else if search.rays.common_origin {
             packet::walk::<M, Q, true>(&mut search, &bundle, waiting64);

@@ -168,14 +168,8 @@ impl Rays {
             for half in 0..2 {
                 let from = 16 * group + 8 * half;
                 let mut eight = [floats(last); 8];
-                if let Some(rays) = rays.get(from..from + 8) {
-                    for (eighth, ray) in eight.iter_mut().zip(rays) {
-                        *eighth = floats(ray);
-                    }
-                } else {
-                    for (eighth, ray) in eight.iter_mut().zip(rays.iter().skip(from)) {
-                        *eighth = floats(ray);
-                    }
+                for (eighth, ray) in eight.iter_mut().zip(rays.get(from..).unwrap_or_default()) {
+                    *eighth = floats(ray);
                 }
                 let [ox, oy, oz, dx, dy, dz, t_min, t_max] = M::transpose(eight);
                 self.origin[0].set_half::<M>(group, half, ox);
@@ -273,7 +267,7 @@ impl Rays {
 
     /// Reckons the slopes of a bundle. Whether its rays differ so little in direction that they meet much the same boxes.
     #[inline(always)]
-    pub(super) fn make_ready<M: Machine>(&mut self, bundle: &mut Bundle) -> bool {
+    pub(super) fn make_ready<M: Machine>(&mut self, bundle: &Bundle) -> bool {
         let [x, y, z] = bundle.axes;
         for group in 0..4 {
             let per_unit: M::F16 = self.inverse[z].group(group);
