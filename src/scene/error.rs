@@ -74,8 +74,8 @@ pub enum SceneError {
         /// The greatest coordinate in the world.
         reach: f32,
     },
-    /// More primitives than 32 bits can number.
-    #[error("{count} primitives are more than {} (instances count)", u32::MAX)]
+    /// More primitives than 31 bits can number.
+    #[error("{count} primitives are more than {} (instances count)", i32::MAX)]
     TooManyPrimitives {
         /// Spheres, planes and triangles of all instances.
         count: u64,

@@ -128,12 +128,14 @@ impl Scene {
     }
 }
 
-/// How many primitives a description has, where 32 bits can number them.
+/// How many primitives a description has, where 31 bits can number them: search keeps the last one for a mark.
 pub(super) fn count_primitives(scene: &SceneDescription) -> Result<u32, SceneError> {
     let count = triangles_of_instances(&scene.meshes, &scene.instances)
         + scene.spheres.len() as u64
         + scene.planes.len() as u64;
-    u32::try_from(count).map_err(|_| SceneError::TooManyPrimitives { count })
+    i32::try_from(count)
+        .map(i32::cast_unsigned)
+        .map_err(|_| SceneError::TooManyPrimitives { count })
 }
 
 fn triangles_of_instances(meshes: &[Mesh], instances: &[Instance]) -> u64 {
@@ -312,6 +314,22 @@ mod tests {
             [true, false, true]
         );
         assert_eq!((placed[0].mesh, placed[2].mesh, meshes.len()), (0, 0, 2));
+    }
+
+    #[test]
+    fn more_primitives_than_31_bits_number_are_refused() {
+        let scene = |count| SceneDescription {
+            meshes: vec![mesh_of(1 << 16)],
+            instances: instances(count),
+            ..SceneDescription::empty(crate::camera::Camera::looking_at(
+                Vec3::Z,
+                Vec3::ZERO,
+                Vec3::Y,
+                1.0,
+            ))
+        };
+        assert!(count_primitives(&scene((1 << 15) - 1)).is_ok());
+        assert!(count_primitives(&scene(1 << 15)).is_err());
     }
 
     #[test]
