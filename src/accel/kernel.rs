@@ -10,17 +10,22 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod batch;
+mod bundle;
 mod equation;
 mod float;
 mod interval;
 mod isa;
 mod packet;
+mod pages;
 mod rays;
 mod scalar;
 mod single;
+mod spread;
+mod stream;
 
 pub(super) use batch::Scratch;
 pub use isa::{Isa, IsaError};
+pub(super) use pages::Pages;
 
 use super::Accel;
 use crate::geometry::Hit;

@@ -1,5 +1,6 @@
 //! A tree with its primitives laid into it.
 
+use super::kernel::Pages;
 use super::wide::{Kind, Node, Reference, Topology};
 use super::{Layout, SharedInstance};
 use crate::geometry::{Sphere, Triangle};
@@ -120,11 +121,11 @@ impl SphereBlock {
 /// [`blocks`].
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tree {
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: Pages<Node>,
     /// In blocks of eight, or of four.
-    triangles: Vec<TriangleBlock>,
-    fours: Vec<Triangles<4>>,
-    pub(super) spheres: Vec<SphereBlock>,
+    pub(super) triangles: Pages<TriangleBlock>,
+    fours: Pages<Triangles<4>>,
+    pub(super) spheres: Pages<SphereBlock>,
     pub(super) instances: Vec<SharedInstance>,
     /// The greatest absolute coordinate of anything in it.
     pub(super) extent: f32,
@@ -172,15 +173,7 @@ impl Tree {
         layout: Layout,
         item: impl Fn(u32) -> Item,
     ) -> Tree {
-        let mut tree = Tree {
-            extent,
-            leaves: topology.leaves.len(),
-            depth: topology.depth,
-            sah_cost: topology.sah_cost,
-            nodes: topology.nodes,
-            ..Tree::default()
-        };
-        let mut nodes = std::mem::take(&mut tree.nodes);
+        let (mut nodes, mut blocks) = (topology.nodes, Blocks::default());
         for child in nodes.iter_mut().flat_map(|node| &mut node.children) {
             let kind = child.kind();
             if kind == Kind::Node {
@@ -188,24 +181,71 @@ impl Tree {
             }
             let leaf = topology.leaves[child.index()];
             let items = &topology.order[leaf.first as usize..(leaf.first + leaf.count) as usize];
-            let first = tree.blocks_of(kind, layout);
+            let first = blocks.count(kind, layout);
             let block = match (kind, layout) {
                 (Kind::Triangles, Layout::Small) => 4,
                 _ => 8,
             };
             for items in items.chunks(block) {
-                tree.push(kind, layout, items.iter().map(|&index| item(index)));
+                blocks.push(kind, layout, items.iter().map(|&index| item(index)));
             }
-            let others = tree.blocks_of(kind, layout) - first - 1;
+            let others = blocks.count(kind, layout) - first - 1;
             *child = Reference::new(kind, (first << 2 | others) as u32);
         }
-        tree.nodes = nodes;
-        tree
+        // One after the other: the memory for the old ones is free again.
+        Tree {
+            nodes: in_pages(nodes),
+            triangles: in_pages(blocks.triangles),
+            fours: in_pages(blocks.fours),
+            spheres: in_pages(blocks.spheres),
+            instances: blocks.instances,
+            extent,
+            leaves: topology.leaves.len(),
+            depth: topology.depth,
+            sah_cost: topology.sah_cost,
+        }
     }
 
-    fn blocks_of(&self, kind: Kind, layout: Layout) -> usize {
+    /// The blocks of a leaf of triangles.
+    #[inline(always)]
+    pub(super) fn leaf(&self, reference: Reference) -> LeafBlocks<'_> {
+        let blocks = blocks(reference);
+        if self.fours.is_empty() {
+            LeafBlocks::Eights(self.triangles[blocks].iter())
+        } else {
+            LeafBlocks::Fours(self.fours[blocks].chunks(2), TriangleBlock::EMPTY)
+        }
+    }
+
+    /// The most entries that a walk down this tree leaves on its stack.
+    pub(super) fn stack_size(&self) -> usize {
+        7 * self.depth + 8
+    }
+
+    /// Nodes and blocks, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.nodes)
+            + size_of_val(&*self.triangles)
+            + size_of_val(&*self.fours)
+            + size_of_val(&*self.spheres)
+            + size_of_val(self.instances.as_slice())
+    }
+}
+
+/// The blocks of the leaves laid so far.
+#[derive(Default)]
+struct Blocks {
+    triangles: Vec<TriangleBlock>,
+    fours: Vec<Triangles<4>>,
+    spheres: Vec<SphereBlock>,
+    instances: Vec<SharedInstance>,
+}
+
+impl Blocks {
+    /// How many there are of a kind of leaf.
+    fn count(&self, kind: Kind, layout: Layout) -> usize {
         match (kind, layout) {
-            (Kind::Node, _) => self.nodes.len(),
+            (Kind::Node, _) => 0,
             (Kind::Triangles, Layout::Wide) => self.triangles.len(),
             (Kind::Triangles, Layout::Small) => self.fours.len(),
             (Kind::Spheres, _) => self.spheres.len(),
@@ -235,29 +275,9 @@ impl Tree {
             (Kind::Node | Kind::Instances, _) => {}
         }
     }
+}
 
-    /// The blocks of a leaf of triangles.
-    #[inline(always)]
-    pub(super) fn leaf(&self, reference: Reference) -> LeafBlocks<'_> {
-        let blocks = blocks(reference);
-        if self.fours.is_empty() {
-            LeafBlocks::Eights(self.triangles[blocks].iter())
-        } else {
-            LeafBlocks::Fours(self.fours[blocks].chunks(2), TriangleBlock::EMPTY)
-        }
-    }
-
-    /// The most entries that a walk down this tree leaves on its stack.
-    pub(super) fn stack_size(&self) -> usize {
-        7 * self.depth + 8
-    }
-
-    /// Nodes and blocks, in bytes.
-    pub(super) fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice())
-            + size_of_val(self.triangles.as_slice())
-            + size_of_val(self.fours.as_slice())
-            + size_of_val(self.spheres.as_slice())
-            + size_of_val(self.instances.as_slice())
-    }
+/// A copy in huge pages, instead of the original.
+fn in_pages<T: Copy>(items: Vec<T>) -> Pages<T> {
+    Pages::of(&items)
 }

@@ -1,11 +1,12 @@
 //! Rays of a batch that go on alone.
 
 use super::answer::Question;
+use super::bundle::Octant;
 use super::float::{Machine, Task};
 use super::rays::Rays;
 use super::single::{self, Waiting};
+use super::spread::Spread;
 use crate::accel::Accel;
-use crate::accel::primitive::Probe;
 use crate::accel::wide::Reference;
 use crate::ray::Ray;
 use std::marker::PhantomData;
@@ -24,6 +25,7 @@ pub(super) struct Search<'a> {
 /// Some rays, each followed from `start` down.
 struct Alone<'a, 'b, Q> {
     search: &'a mut Search<'b>,
+    octant: Octant,
     start: Reference,
     live: u64,
     question: PhantomData<Q>,
@@ -32,9 +34,15 @@ struct Alone<'a, 'b, Q> {
 impl Search<'_> {
     /// Sends each ray of `live` on alone, from `start` down.
     #[inline(always)]
-    pub(super) fn alone<M: Machine, Q: Question>(&mut self, start: Reference, live: u64) {
+    pub(super) fn alone<M: Machine, Q: Question>(
+        &mut self,
+        octant: Octant,
+        start: Reference,
+        live: u64,
+    ) {
         M::run(Alone::<Q> {
             search: self,
+            octant,
             start,
             live,
             question: PhantomData,
@@ -59,10 +67,11 @@ impl<Q: Question> Task for Alone<'_, '_, Q> {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
             let Some(ray) = chunk.get(lane) else { return };
-            let probe = Probe::new(*ray, tree.extent);
+            let wide = Spread::of(rays, self.octant, lane);
             let mut best = rays.best(lane);
-            let found =
-                single::walk::<M, Q, true>(tree, meshes, self.start, 0, &probe, &mut best, stack);
+            let found = single::walk::<M, Q, true>(
+                tree, meshes, self.start, 0, ray, &wide, &mut best, stack,
+            );
             if found {
                 rays.live &= !(1 << lane);
             } else if !Q::ANY {

@@ -3,7 +3,7 @@
 //! Every `unsafe` here calls instructions of AVX and AVX2. It is sound since values of these types come to be only
 //! inside [`Machine::run`], which [`super`] calls only where an [`super::Isa`] says that the CPU has both.
 
-use super::float::{Float, Machine, Task};
+use super::float::{Float, Machine, Sets, Task};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -15,9 +15,13 @@ pub(super) struct F8(__m256);
 #[derive(Clone, Copy)]
 pub(super) struct F16(F8, F8);
 
+/// See [`Sets`].
+pub(super) struct Sets8(__m256i, __m256i);
+
 impl Machine for Avx2 {
     type F8 = F8;
     type F16 = F16;
+    type Sets = Sets8;
 
     #[inline(always)]
     fn run<T: Task>(task: T) -> T::Output {
@@ -65,6 +69,43 @@ fn quarters([a, b, c, d]: [F8; 4]) -> [F8; 4] {
             F8(_mm256_shuffle_ps::<0b01_00_01_00>(ab_high, cd_high)),
             F8(_mm256_shuffle_ps::<0b11_10_11_10>(ab_high, cd_high)),
         ]
+    }
+}
+
+impl Sets for Sets8 {
+    #[inline(always)]
+    fn none() -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { Sets8(_mm256_setzero_si256(), _mm256_setzero_si256()) }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, mask: u32, lane: usize) {
+        // SAFETY: as said at the head of the file.
+        unsafe {
+            let ray = _mm256_set1_epi64x(1 << (lane & 63));
+            let mask = _mm256_set1_epi64x(i64::from(mask));
+            let (low, high) = (
+                _mm256_setr_epi64x(1, 2, 4, 8),
+                _mm256_setr_epi64x(16, 32, 64, 128),
+            );
+            let joins_low = _mm256_cmpeq_epi64(_mm256_and_si256(mask, low), low);
+            let joins_high = _mm256_cmpeq_epi64(_mm256_and_si256(mask, high), high);
+            self.0 = _mm256_or_si256(self.0, _mm256_and_si256(joins_low, ray));
+            self.1 = _mm256_or_si256(self.1, _mm256_and_si256(joins_high, ray));
+        }
+    }
+
+    #[inline(always)]
+    fn get(self) -> [u64; 8] {
+        let mut sets = [0; 8];
+        let (low, high) = sets.split_at_mut(4);
+        // SAFETY: as said at the head of the file; each half has room for the four that are written.
+        unsafe {
+            _mm256_storeu_si256(low.as_mut_ptr().cast(), self.0);
+            _mm256_storeu_si256(high.as_mut_ptr().cast(), self.1);
+        }
+        sets
     }
 }
 

@@ -3,7 +3,7 @@
 //! Every `unsafe` here calls instructions of AVX-512 F and VL. It is sound since values of these types come to be only
 //! inside [`Machine::run`], which [`super`] calls only where an [`super::Isa`] says that the CPU has them.
 
-use super::float::{Float, Machine, Task};
+use super::float::{Float, Machine, Sets, Task};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -15,9 +15,13 @@ pub(super) struct F8(__m256);
 #[derive(Clone, Copy)]
 pub(super) struct F16(__m512);
 
+/// See [`Sets`].
+pub(super) struct Sets8(__m512i);
+
 impl Machine for Avx512 {
     type F8 = F8;
     type F16 = F16;
+    type Sets = Sets8;
 
     #[inline(always)]
     fn run<T: Task>(task: T) -> T::Output {
@@ -65,6 +69,31 @@ fn quarters([a, b, c, d]: [F8; 4]) -> [F8; 4] {
             F8(_mm256_shuffle_ps::<0b01_00_01_00>(ab_high, cd_high)),
             F8(_mm256_shuffle_ps::<0b11_10_11_10>(ab_high, cd_high)),
         ]
+    }
+}
+
+impl Sets for Sets8 {
+    #[inline(always)]
+    fn none() -> Self {
+        // SAFETY: as said at the head of the file.
+        unsafe { Sets8(_mm512_setzero_si512()) }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, mask: u32, lane: usize) {
+        // SAFETY: as said at the head of the file.
+        unsafe {
+            let ray = _mm512_set1_epi64(1 << (lane & 63));
+            self.0 = _mm512_mask_or_epi64(self.0, mask as __mmask8, self.0, ray);
+        }
+    }
+
+    #[inline(always)]
+    fn get(self) -> [u64; 8] {
+        let mut sets = [0; 8];
+        // SAFETY: as said at the head of the file; the array has room for all that is written.
+        unsafe { _mm512_storeu_si512(sets.as_mut_ptr().cast(), self.0) }
+        sets
     }
 }
 

@@ -2,10 +2,12 @@
 
 use super::alone::Search;
 use super::answer::{Any, Closest, Question};
+use super::bundle::Bundle;
 use super::float::{Machine, Task};
 use super::packet::{self, Waiting64};
 use super::rays::{Rays, SIZE};
 use super::single::Waiting;
+use super::stream::{self, Few};
 use crate::accel::wide::Reference;
 use crate::accel::{Accel, primitive};
 use crate::geometry::Hit;
@@ -18,6 +20,7 @@ const LEAST: u32 = 8;
 pub(in crate::accel) struct Scratch {
     rays: Box<Rays>,
     waiting: Vec<Waiting>,
+    few: Vec<Few>,
     waiting64: Vec<Waiting64>,
 }
 
@@ -26,6 +29,7 @@ impl Scratch {
         Scratch {
             rays: Box::new(Rays::new()),
             waiting: Vec::new(),
+            few: Vec::new(),
             waiting64: Vec::new(),
         }
     }
@@ -33,6 +37,7 @@ impl Scratch {
     fn make_room(&mut self, size: usize) {
         if self.waiting.len() < size {
             self.waiting.resize(size, Waiting::NOTHING);
+            self.few.resize(size, Few::NOTHING);
             self.waiting64.resize(size, Waiting64::NOTHING);
         }
     }
@@ -102,12 +107,14 @@ impl Task for OccludedOf<'_> {
     }
 }
 
-/// Searches the trees for `chunk`, which is in `scratch`.
+/// Searches the trees for `chunk`, which is in `scratch`: rays that are alike in packets, the others of an octant in a
+/// stream.
 #[inline(always)]
 fn search<M: Machine, Q: Question>(accel: &Accel, chunk: &[Ray], scratch: &mut Scratch) {
     let Scratch {
         rays,
         waiting,
+        few,
         waiting64,
     } = scratch;
     let mut search = Search {
@@ -117,19 +124,30 @@ fn search<M: Machine, Q: Question>(accel: &Accel, chunk: &[Ray], scratch: &mut S
         stack: waiting,
     };
     let mut left = search.rays.live;
-    if !accel.packets {
-        search.alone::<M, Q>(Reference::ROOT, left);
-        return;
-    }
     while left != 0 {
-        let bundle = search.rays.of_one_class(left);
-        left &= !bundle.members;
-        if bundle.members.count_ones() < LEAST || !search.rays.make_ready::<M>(&bundle) {
-            search.alone::<M, Q>(Reference::ROOT, bundle.members);
-        } else if search.rays.common_origin {
-            packet::walk::<M, Q, true>(&mut search, &bundle, waiting64);
-        } else {
-            packet::walk::<M, Q, false>(&mut search, &bundle, waiting64);
+        let Bundle { members, octant } = search.rays.of_one_octant(left);
+        left &= !members;
+        if !accel.packets {
+            search.alone::<M, Q>(octant, Reference::ROOT, members);
+            continue;
+        }
+        let (mut rest, mut unlike) = (members, 0);
+        while rest != 0 {
+            let bundle = Bundle {
+                members: search.rays.of_one_axis(rest),
+                octant,
+            };
+            rest &= !bundle.members;
+            if bundle.members.count_ones() < LEAST || !search.rays.are_narrow::<M>(bundle.members) {
+                unlike |= bundle.members;
+            } else if search.rays.common_origin {
+                packet::walk::<M, Q, true>(&mut search, &bundle, few, waiting64);
+            } else {
+                packet::walk::<M, Q, false>(&mut search, &bundle, few, waiting64);
+            }
+        }
+        if unlike != 0 {
+            stream::walk::<M, Q>(&mut search, octant, Reference::ROOT, unlike, few);
         }
     }
 }

@@ -37,12 +37,23 @@ pub(super) trait Float<const N: usize>:
 pub(super) trait Machine: Sized {
     type F8: Float<8>;
     type F16: Float<16>;
+    type Sets: Sets;
     /// Runs a task as a function of its own that may use this machine's instructions.
     fn run<T: Task>(task: T) -> T::Output;
     /// Asks for a line of cache that will be read soon.
     fn prefetch<T>(from: &T);
     /// Eight times eight floats, rows for columns.
     fn transpose(rows: [&[f32; 8]; 8]) -> [Self::F8; 8];
+}
+
+/// Eight sets of up to 64 rays: who meets which child.
+pub(super) trait Sets {
+    /// Nobody.
+    fn none() -> Self;
+    /// The ray in `lane`, below 64, joins the sets whose bits `mask` has.
+    fn add(&mut self, mask: u32, lane: usize);
+    /// One bit a ray.
+    fn get(self) -> [u64; 8];
 }
 
 /// What a machine runs.

@@ -1,7 +1,8 @@
 //! All rays of a bundle against eight boxes at once.
 
+use super::bundle::Bundle;
 use super::float::Float;
-use super::rays::{Bundle, Rays};
+use super::rays::Rays;
 
 /// The interval of all rays of a bundle, spread over eight lanes.
 pub(super) struct Interval<F> {
@@ -29,7 +30,7 @@ impl<F: Float<8>> Interval<F> {
             let (near, far) = (&rays.to_near[axis], &rays.to_far[axis]);
             let (to_near, to_far) = if rays.common_origin {
                 (near.get(bundle.first()), far.get(bundle.first()))
-            } else if bundle.near[axis] == 0 {
+            } else if bundle.octant.near[axis] == 0 {
                 (near.greatest::<F16>(members), far.least::<F16>(members))
             } else {
                 (near.least::<F16>(members), far.greatest::<F16>(members))

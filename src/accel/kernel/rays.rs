@@ -9,10 +9,10 @@ use crate::ray::Ray;
 /// The most rays that go together.
 pub(super) const SIZE: usize = 64;
 
-/// One number of each ray, in four groups of sixteen.
+/// One number of each ray.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-pub(super) struct Row(pub(super) [[f32; 16]; 4]);
+pub(super) struct Row([f32; SIZE]);
 
 /// Rays and their nearest hits so far. Lanes past the last ray repeat it.
 pub(super) struct Rays {
@@ -24,7 +24,7 @@ pub(super) struct Rays {
     pub(super) to_near: [Row; 3],
     pub(super) to_far: [Row; 3],
     pub(super) inverse: [Row; 3],
-    /// As in [`crate::geometry::RaySpace`], of the bundle under way.
+    /// As in [`crate::geometry::RaySpace`].
     pub(super) slope: [Row; 2],
     pub(super) t_min: Row,
     /// The nearest hit, or the end of the ray.
@@ -34,62 +34,47 @@ pub(super) struct Rays {
     pub(super) barycentric: [Row; 2],
     pub(super) common_origin: bool,
     /// Per axis, who goes to lesser coordinates.
-    backward: [u64; 3],
+    pub(super) backward: [u64; 3],
     /// Per axis, whose longest it is, of equal ones the first.
-    longest: [u64; 3],
+    pub(super) longest: [u64; 3],
     /// Who goes on after a surface that it went through.
-    alone: u64,
-}
-
-/// Rays that go into one octant and along one longest axis.
-pub(super) struct Bundle {
-    pub(super) members: u64,
-    /// Which corner of a box is near, and which far, per axis: 0 is the least.
-    pub(super) near: [usize; 3],
-    pub(super) far: [usize; 3],
-    /// The longest last.
-    pub(super) axes: [usize; 3],
-}
-
-impl Bundle {
-    /// The lane of its first ray.
-    #[inline(always)]
-    pub(super) fn first(&self) -> usize {
-        self.members.trailing_zeros() as usize
-    }
+    pub(super) alone: u64,
 }
 
 impl Row {
-    const ZERO: Row = Row([[0.0; 16]; 4]);
+    const ZERO: Row = Row([0.0; SIZE]);
 
     #[inline(always)]
     pub(super) fn get(&self, lane: usize) -> f32 {
-        self.0[lane >> 4 & 3][lane & 15]
+        self.0[lane & 63]
     }
 
     #[inline(always)]
     fn set(&mut self, lane: usize, x: f32) {
-        self.0[lane >> 4 & 3][lane & 15] = x;
+        self.0[lane & 63] = x;
     }
 
+    /// Four groups of sixteen.
     #[inline(always)]
     pub(super) fn group<F: Float<16>>(&self, group: usize) -> F {
-        F::load(&self.0[group & 3])
+        F::load(&self.0.as_chunks().0[group & 3])
     }
 
     #[inline(always)]
-    fn set_half<M: Machine>(&mut self, group: usize, half: usize, new: M::F8) {
-        let (low, high) = self.0[group & 3].split_at_mut(8);
-        let eight = if half == 0 { low } else { high };
-        if let Ok(eight) = eight.try_into() {
-            new.store(eight);
-        }
+    fn set_group<F: Float<16>>(&mut self, group: usize, new: F) {
+        new.store(&mut self.0.as_chunks_mut().0[group & 3]);
+    }
+
+    /// Eight groups of eight.
+    #[inline(always)]
+    fn set_eight<F: Float<8>>(&mut self, eight: usize, new: F) {
+        new.store(&mut self.0.as_chunks_mut().0[eight & 7]);
     }
 
     /// Puts `new` into the lanes of `mask`.
     #[inline(always)]
     pub(super) fn replace<F: Float<16>>(&mut self, group: usize, mask: u32, new: F) {
-        F::select(mask, new, self.group(group)).store(&mut self.0[group & 3]);
+        self.set_group(group, F::select(mask, new, self.group(group)));
     }
 
     /// The least of the members.
@@ -164,25 +149,24 @@ impl Rays {
     pub(super) fn fill<M: Machine>(&mut self, rays: &[Ray], extent: f32) {
         let Some(last) = rays.last() else { return };
         let count = rays.len().min(SIZE);
-        for group in 0..4 {
-            for half in 0..2 {
-                let from = 16 * group + 8 * half;
-                let mut eight = [floats(last); 8];
-                for (eighth, ray) in eight.iter_mut().zip(rays.get(from..).unwrap_or_default()) {
-                    *eighth = floats(ray);
+        for eight in 0..SIZE / 8 {
+            let mut from = [floats(last); 8];
+            for (i, from) in from.iter_mut().enumerate() {
+                if let Some(ray) = rays.get(8 * eight + i) {
+                    *from = floats(ray);
                 }
-                let [ox, oy, oz, dx, dy, dz, t_min, t_max] = M::transpose(eight);
-                self.origin[0].set_half::<M>(group, half, ox);
-                self.origin[1].set_half::<M>(group, half, oy);
-                self.origin[2].set_half::<M>(group, half, oz);
-                self.direction[0].set_half::<M>(group, half, dx);
-                self.direction[1].set_half::<M>(group, half, dy);
-                self.direction[2].set_half::<M>(group, half, dz);
-                self.t_min.set_half::<M>(group, half, t_min);
-                self.t.set_half::<M>(group, half, t_max);
             }
+            let [ox, oy, oz, dx, dy, dz, t_min, t_max] = M::transpose(from);
+            self.origin[0].set_eight(eight, ox);
+            self.origin[1].set_eight(eight, oy);
+            self.origin[2].set_eight(eight, oz);
+            self.direction[0].set_eight(eight, dx);
+            self.direction[1].set_eight(eight, dy);
+            self.direction[2].set_eight(eight, dz);
+            self.t_min.set_eight(eight, t_min);
+            self.t.set_eight(eight, t_max);
         }
-        self.number = Row([[f32::from_bits(Best::NONE); 16]; 4]);
+        self.number = Row([f32::from_bits(Best::NONE); SIZE]);
         self.live = u64::MAX >> (SIZE - count);
         self.alone = 0;
         for (lane, ray) in rays.iter().enumerate() {
@@ -215,9 +199,9 @@ impl Rays {
                 let inverse = (M::F16::splat(1.0) / d).max(least).min(greatest);
                 let backward = inverse.lt(zero);
                 let (low, high) = (origin[axis] - pad, origin[axis] + pad);
-                M::F16::select(backward, low, high).store(&mut self.to_near[axis].0[group]);
-                M::F16::select(backward, high, low).store(&mut self.to_far[axis].0[group]);
-                inverse.store(&mut self.inverse[axis].0[group]);
+                self.to_near[axis].set_group(group, M::F16::select(backward, low, high));
+                self.to_far[axis].set_group(group, M::F16::select(backward, high, low));
+                self.inverse[axis].set_group(group, inverse);
                 self.backward[axis] |= u64::from(backward) << (16 * group);
                 length[axis] = d.max(zero - d);
             }
@@ -228,60 +212,37 @@ impl Rays {
             self.longest[1] |= u64::from(y_longest) << (16 * group);
             let z_longest = !(x_longest | y_longest) & 0xffff;
             self.longest[2] |= u64::from(z_longest) << (16 * group);
+            let [x, y, z] = direction;
+            let inverse = three::<M::F16>(&self.inverse, group);
+            let per_unit = M::F16::select(y_longest, inverse[1], inverse[2]);
+            let per_unit = M::F16::select(x_longest, inverse[0], per_unit);
+            let along = M::F16::select(x_longest, y, M::F16::select(y_longest, z, x));
+            let across = M::F16::select(x_longest, z, M::F16::select(y_longest, x, y));
+            self.slope[0].set_group(group, along * per_unit);
+            self.slope[1].set_group(group, across * per_unit);
         }
         self.common_origin = same == 0xffff;
     }
 
-    /// Of `left`, above zero, those that go the way of the first of them.
+    /// The rays that have met nothing before `near`.
     #[inline(always)]
-    pub(super) fn of_one_class(&self, left: u64) -> Bundle {
-        let first = left & left.wrapping_neg();
-        let longest = if self.longest[0] & first != 0 {
-            0
-        } else if self.longest[1] & first != 0 {
-            1
-        } else {
-            2
-        };
-        let mut members = left & self.longest[longest];
-        let mut near = [0; 3];
-        for (near, &backward) in near.iter_mut().zip(&self.backward) {
-            *near = usize::from(backward & first != 0);
-            members &= if *near == 1 { backward } else { !backward };
+    pub(super) fn reaching<F: Float<16>>(&self, near: f32) -> u64 {
+        let near = F::splat(near);
+        let mut reaching = 0;
+        for group in 0..4 {
+            reaching |= u64::from(near.le(self.t.group(group))) << (16 * group);
         }
-        // What goes on after a surface has a rule of its own for equal distances.
-        if self.alone != 0 {
-            members = if self.alone & first != 0 {
-                first
-            } else {
-                members & !self.alone
-            };
-        }
-        Bundle {
-            members,
-            near,
-            far: [near[0] ^ 1, near[1] ^ 1, near[2] ^ 1],
-            axes: [(longest + 1) % 3, (longest + 2) % 3, longest],
-        }
+        reaching
     }
 
-    /// Reckons the slopes of a bundle. Whether its rays differ so little in direction that they meet much the same boxes.
+    /// The axes of the world in the order of a ray's own space: its longest last.
     #[inline(always)]
-    pub(super) fn make_ready<M: Machine>(&mut self, bundle: &Bundle) -> bool {
-        let [x, y, z] = bundle.axes;
-        for group in 0..4 {
-            let per_unit: M::F16 = self.inverse[z].group(group);
-            let along_x: M::F16 = self.direction[x].group(group);
-            let along_y: M::F16 = self.direction[y].group(group);
-            (along_x * per_unit).store(&mut self.slope[0].0[group]);
-            (along_y * per_unit).store(&mut self.slope[1].0[group]);
-        }
-        let mut spread = 0.0;
-        for slope in &self.slope {
-            let greatest = slope.greatest::<M::F16>(bundle.members);
-            spread += greatest - slope.least::<M::F16>(bundle.members);
-        }
-        spread < WIDEST
+    pub(super) fn axes(&self, lane: usize) -> [usize; 3] {
+        // Without a branch, which unlike rays would make hard to foresee.
+        let is_y = (self.longest[1] >> lane & 1) as usize;
+        let is_z = (self.longest[2] >> lane & 1) as usize;
+        let is_x = 1 - is_y - is_z;
+        [is_x + 2 * is_y, is_z + 2 * is_x, is_y + 2 * is_z]
     }
 
     /// What a ray met so far.
@@ -309,6 +270,3 @@ impl Rays {
         self.set_best(lane, &best);
     }
 }
-
-/// The greatest sum of the ranges of both slopes with which rays still go together.
-const WIDEST: f32 = 0.6;

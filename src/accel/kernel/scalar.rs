@@ -1,6 +1,6 @@
 //! The twin without any intrinsics: arrays, which compilers vectorise as far as they can on any machine.
 
-use super::float::{Float, Machine, Task};
+use super::float::{Float, Machine, Sets, Task};
 use std::ops::{Add, Div, Mul, Sub};
 
 pub(super) struct Scalar;
@@ -11,6 +11,7 @@ pub(super) struct Array<const N: usize>([f32; N]);
 impl Machine for Scalar {
     type F8 = Array<8>;
     type F16 = Array<16>;
+    type Sets = ScalarSets;
 
     fn run<T: Task>(task: T) -> T::Output {
         task.run::<Scalar>()
@@ -28,6 +29,28 @@ impl Machine for Scalar {
             }
         }
         columns
+    }
+}
+
+/// See [`Sets`].
+pub(super) struct ScalarSets([u64; 8]);
+
+impl Sets for ScalarSets {
+    #[inline(always)]
+    fn none() -> Self {
+        ScalarSets([0; 8])
+    }
+
+    #[inline(always)]
+    fn add(&mut self, mask: u32, lane: usize) {
+        for (slot, set) in self.0.iter_mut().enumerate() {
+            *set |= u64::from(mask >> slot & 1) << (lane & 63);
+        }
+    }
+
+    #[inline(always)]
+    fn get(self) -> [u64; 8] {
+        self.0
     }
 }
 
