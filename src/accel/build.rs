@@ -4,6 +4,7 @@ mod binary;
 mod binned;
 mod clustered;
 mod collapse;
+mod curve;
 mod emit;
 mod obvhs;
 mod reinsertion;
@@ -15,7 +16,8 @@ use super::wide::{Kind, Topology};
 use super::{Builder, Options, Preset};
 use crate::geometry::Bounds;
 use binary::Node;
-use collapse::{Costs, Plan};
+use collapse::{Costs, Plan, Planned};
+use curve::Curve;
 
 /// The tree over `bounds`, whose items are of some kind each; empty where there are none.
 ///
@@ -31,10 +33,10 @@ pub(super) fn build(
     let effort = Effort::of(options.preset);
     let leaves = scaled::leaves(bounds);
     let costs = Costs::new(&leaves, options);
-    let planned = |mut nodes: Vec<Node>| {
-        reinsertion::improve(&mut nodes, effort.reinserted, effort.rounds);
-        let plan = Plan::new(&nodes, &kind, &costs);
-        (nodes, plan)
+    let planned = |mut tree: Vec<Node>| {
+        reinsertion::improve(&mut tree, effort.reinserted, effort.rounds);
+        let plan = Plan::new(&tree, &kind, &costs);
+        Planned { tree, plan }
     };
     // Neither tree is the better for all scenes: the first is for rooms full of things, the second for landscapes and hair.
     let clustered =
@@ -44,23 +46,39 @@ pub(super) fn build(
         drop(leaves);
         planned(nodes)
     };
-    let (tree, plan) = match effort.trees {
+    let shape = match effort.trees {
         _ if options.builder == Builder::Obvhs => planned(obvhs::joined(leaves, options.preset)),
+        Trees::Curve => {
+            let places = curve::order(&leaves);
+            drop(leaves);
+            let leaf_size = costs.leaf_size;
+            let curve = Curve {
+                places,
+                leaf_size,
+                kind: &kind,
+            };
+            return emit::topology(&curve, bounds, &kind);
+        }
         Trees::Clustered => clustered(leaves),
         Trees::Binned => binned(leaves),
         Trees::Both => {
             let copy = leaves.clone();
             let (a, b) = rayon::join(|| clustered(leaves), || binned(copy));
-            if a.1.cost < b.1.cost { a } else { b }
+            if a.plan.cost < b.plan.cost { a } else { b }
         }
     };
-    emit::topology(&tree, &plan, bounds, &kind)
+    emit::topology(&shape, bounds, &kind)
 }
 
-/// Which binary trees are built.
+/// Which trees are built.
 enum Trees {
+    /// Stretches of a curve, at once with eight children a node.
+    Curve,
+    /// A binary tree from the bottom up.
     Clustered,
+    /// A binary tree from the top down.
     Binned,
+    /// Both, of which the better is kept.
     Both,
 }
 
@@ -78,7 +96,7 @@ struct Effort {
 impl Effort {
     fn of(preset: Preset) -> Effort {
         let (trees, reach, near_rounds, reinserted, rounds) = match preset {
-            Preset::Fastest => (Trees::Clustered, 1, 0, 0.0, 0),
+            Preset::Fastest => (Trees::Curve, 0, 0, 0.0, 0),
             Preset::VeryFast => (Trees::Clustered, 2, 2, 0.01, 4),
             Preset::Fast => (Trees::Binned, 0, 0, 0.01, 4),
             Preset::Medium => (Trees::Both, 14, 3, 0.03, 8),

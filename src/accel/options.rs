@@ -36,7 +36,7 @@ impl Default for Options {
 /// How much time the build takes for how good a tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Preset {
-    /// Seconds count, rays do not.
+    /// Stretches of a curve, at once: where the build counts and rays do not.
     Fastest,
     /// Between its neighbours.
     VeryFast,
@@ -54,7 +54,7 @@ pub enum Preset {
 /// Who builds the tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Builder {
-    /// One tree of joined neighbours, one split from the top, or the better of both, by preset.
+    /// By preset: stretches of a curve, a tree of joined neighbours, one split from the top, or the better of both.
     #[default]
     Own,
     /// The neighbours that obvhs joins, to compare.

@@ -4,6 +4,7 @@ use super::kernel::Pages;
 use super::wide::{Kind, Node, Reference, Topology};
 use super::{Layout, SharedInstance};
 use crate::geometry::{Sphere, Triangle};
+use rayon::prelude::*;
 
 /// The bit of a primitive's number that says that light passes through it.
 const TRANSPARENT: u32 = 1 << 31;
@@ -171,38 +172,56 @@ impl Tree {
         topology: Topology,
         extent: f32,
         layout: Layout,
-        item: impl Fn(u32) -> Item,
+        item: impl Fn(u32) -> Item + Sync,
     ) -> Tree {
-        let (mut nodes, mut blocks) = (topology.nodes, Blocks::default());
+        let Topology {
+            mut nodes,
+            leaves,
+            order,
+            depth,
+            sah_cost,
+        } = topology;
+        let of_fours = layout == Layout::Small;
+        let (mut triangles, mut spheres) =
+            (Laying::new(if of_fours { 4 } else { 8 }), Laying::new(8));
+        let mut instances = Vec::new();
         for child in nodes.iter_mut().flat_map(|node| &mut node.children) {
             let kind = child.kind();
             if kind == Kind::Node {
                 continue;
             }
-            let leaf = topology.leaves[child.index()];
-            let items = &topology.order[leaf.first as usize..(leaf.first + leaf.count) as usize];
-            let first = blocks.count(kind, layout);
-            let block = match (kind, layout) {
-                (Kind::Triangles, Layout::Small) => 4,
-                _ => 8,
+            let leaf = leaves[child.index()];
+            let items = &order[leaf.first as usize..(leaf.first + leaf.count) as usize];
+            let (first, others) = match kind {
+                Kind::Triangles => triangles.add(items),
+                Kind::Spheres => spheres.add(items),
+                Kind::Node | Kind::Instances => {
+                    let first = instances.len();
+                    instances.extend(items.iter().filter_map(|&index| match item(index) {
+                        Item::Instance(instance) => Some(instance),
+                        _ => None,
+                    }));
+                    (first, 0)
+                }
             };
-            for items in items.chunks(block) {
-                blocks.push(kind, layout, items.iter().map(|&index| item(index)));
-            }
-            let others = blocks.count(kind, layout) - first - 1;
             *child = Reference::new(kind, (first << 2 | others) as u32);
         }
-        // One after the other: the memory for the old ones is free again.
+        let (mut eights, mut fours) = (Pages::default(), Pages::default());
+        if of_fours {
+            fours = triangles.laid(Triangles::EMPTY, &item);
+        } else {
+            eights = triangles.laid(Triangles::EMPTY, &item);
+        }
         Tree {
-            nodes: in_pages(nodes),
-            triangles: in_pages(blocks.triangles),
-            fours: in_pages(blocks.fours),
-            spheres: in_pages(blocks.spheres),
-            instances: blocks.instances,
+            nodes: Pages::of(&nodes),
+            triangles: eights,
+            fours,
+            spheres: spheres.laid(SphereBlock::EMPTY, &item),
+            instances,
             extent,
-            leaves: topology.leaves.len(),
-            depth: topology.depth,
-            sah_cost: topology.sah_cost,
+            leaves: leaves.len(),
+            depth,
+            sah_cost,
         }
     }
 
@@ -232,52 +251,80 @@ impl Tree {
     }
 }
 
-/// The blocks of the leaves laid so far.
-#[derive(Default)]
-struct Blocks {
-    triangles: Vec<TriangleBlock>,
-    fours: Vec<Triangles<4>>,
-    spheres: Vec<SphereBlock>,
-    instances: Vec<SharedInstance>,
+/// A block of a leaf.
+trait Block: Copy + Send + Sync {
+    /// Puts an item of the block's kind into a lane that it has.
+    fn put(&mut self, lane: usize, item: Item);
 }
 
-impl Blocks {
-    /// How many there are of a kind of leaf.
-    fn count(&self, kind: Kind, layout: Layout) -> usize {
-        match (kind, layout) {
-            (Kind::Node, _) => 0,
-            (Kind::Triangles, Layout::Wide) => self.triangles.len(),
-            (Kind::Triangles, Layout::Small) => self.fours.len(),
-            (Kind::Spheres, _) => self.spheres.len(),
-            (Kind::Instances, _) => self.instances.len(),
+impl<const N: usize> Block for Triangles<N> {
+    fn put(&mut self, lane: usize, item: Item) {
+        if let Item::Triangle(triangle, number) = item {
+            self.set(lane, triangle, number);
+        }
+    }
+}
+
+impl Block for SphereBlock {
+    fn put(&mut self, lane: usize, item: Item) {
+        if let Item::Sphere(sphere, number) = item {
+            self.set(lane, sphere, number);
+        }
+    }
+}
+
+/// The leaves of one kind, before they are laid into blocks.
+struct Laying<'a> {
+    /// The items of each leaf.
+    leaves: Vec<&'a [u32]>,
+    /// Items in a block.
+    size: usize,
+    /// Of all leaves.
+    blocks: usize,
+}
+
+/// Leaves that a thread takes at a time.
+const TASK: usize = 512;
+
+impl<'a> Laying<'a> {
+    fn new(size: usize) -> Laying<'a> {
+        Laying {
+            leaves: Vec::new(),
+            size,
+            blocks: 0,
         }
     }
 
-    fn push(&mut self, kind: Kind, layout: Layout, items: impl Iterator<Item = Item>) {
-        let (mut eight, mut four) = (Triangles::<8>::EMPTY, Triangles::<4>::EMPTY);
-        let mut spheres = SphereBlock::EMPTY;
-        for (lane, item) in items.enumerate() {
-            match (item, layout) {
-                (Item::Triangle(triangle, number), Layout::Wide) => {
-                    eight.set(lane, triangle, number);
+    /// The leaf's first block, and how many follow it.
+    fn add(&mut self, items: &'a [u32]) -> (usize, usize) {
+        let (first, count) = (self.blocks, items.len().div_ceil(self.size));
+        self.leaves.push(items);
+        self.blocks += count;
+        (first, count - 1)
+    }
+
+    /// The blocks of all leaves.
+    fn laid<B: Block>(&self, empty: B, item: &(impl Fn(u32) -> Item + Sync)) -> Pages<B> {
+        let mut blocks = Pages::filled(empty, self.blocks);
+        let mut rest = &mut *blocks;
+        let mut tasks = Vec::new();
+        for leaves in self.leaves.chunks(TASK) {
+            let count = leaves
+                .iter()
+                .map(|items| items.len().div_ceil(self.size))
+                .sum();
+            let (own, others) = rest.split_at_mut(count);
+            tasks.push((leaves, own));
+            rest = others;
+        }
+        tasks.into_par_iter().for_each(|(leaves, blocks)| {
+            let chunks = leaves.iter().flat_map(|items| items.chunks(self.size));
+            for (block, items) in blocks.iter_mut().zip(chunks) {
+                for (lane, &index) in items.iter().enumerate() {
+                    block.put(lane, item(index));
                 }
-                (Item::Triangle(triangle, number), Layout::Small) => {
-                    four.set(lane, triangle, number);
-                }
-                (Item::Sphere(sphere, number), _) => spheres.set(lane, sphere, number),
-                (Item::Instance(instance), _) => self.instances.push(instance),
             }
-        }
-        match (kind, layout) {
-            (Kind::Triangles, Layout::Wide) => self.triangles.push(eight),
-            (Kind::Triangles, Layout::Small) => self.fours.push(four),
-            (Kind::Spheres, _) => self.spheres.push(spheres),
-            (Kind::Node | Kind::Instances, _) => {}
-        }
+        });
+        blocks
     }
-}
-
-/// A copy in huge pages, instead of the original.
-fn in_pages<T: Copy>(items: Vec<T>) -> Pages<T> {
-    Pages::of(&items)
 }

@@ -5,6 +5,7 @@
 //! wants each other, and the time grows with the square: 72 s for a fan of 100,000. Here such a chain is paired up.
 
 use super::binary::Node;
+use super::curve;
 use rayon::prelude::*;
 
 /// Where less than one in so many joins another in a round, they are paired up.
@@ -20,7 +21,7 @@ pub(super) struct Clustered {
 /// The tree over `leaves`. `reach` is how many neighbours on each side are
 /// looked at, once the first few rounds have joined the nearest.
 pub(super) fn joined(leaves: Vec<Node>, reach: usize, near_rounds: usize) -> Clustered {
-    let mut current = along_curve(leaves);
+    let mut current = curve::sorted(leaves);
     let Some(&first) = current.first() else {
         return Clustered {
             nodes: Vec::new(),
@@ -105,32 +106,4 @@ fn pair_up(wanted: &mut [i8]) {
             wanted[index] = 0;
         }
     }
-}
-
-/// The leaves in the order of their centers along a Z curve (Morton 1966).
-pub(super) fn along_curve(leaves: Vec<Node>) -> Vec<Node> {
-    let mut keys: Vec<(u64, u32)> = leaves
-        .par_iter()
-        .enumerate()
-        .map(|(index, leaf)| (code(leaf), index as u32))
-        .collect();
-    keys.par_sort_unstable();
-    keys.par_iter()
-        .map(|&(_, index)| leaves[index as usize])
-        .collect()
-}
-
-/// The bits of a center's coordinates, 20 each, in turn.
-fn code(leaf: &Node) -> u64 {
-    // The boxes lie in -1..1, so the sums in -2..2.
-    let center = (leaf.min() + leaf.max() + 2.0) * ((1 << 18) as f32);
-    let spread = |coordinate: f32| {
-        let mut bits = (coordinate as u64).min((1 << 20) - 1);
-        bits = (bits | bits << 32) & 0x001f_0000_0000_ffff;
-        bits = (bits | bits << 16) & 0x001f_0000_ff00_00ff;
-        bits = (bits | bits << 8) & 0x100f_00f0_0f00_f00f;
-        bits = (bits | bits << 4) & 0x10c3_0c30_c30c_30c3;
-        (bits | bits << 2) & 0x1249_2492_4924_9249
-    };
-    spread(center.x) << 2 | spread(center.y) << 1 | spread(center.z)
 }

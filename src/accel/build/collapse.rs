@@ -4,6 +4,7 @@
 //! Wide BVHs", section 3.1: the cost `C(n, i)` of a subtree `n` as a forest of at most `i` trees, found from the leaves up.
 
 use super::binary::Node;
+use super::emit::Shape;
 use crate::accel::wide::Kind;
 use crate::accel::{Layout, Options};
 use rayon::prelude::*;
@@ -21,7 +22,7 @@ const INSTANCE: f32 = 16.0;
 /// The price of nodes and leaves: half area times cost.
 pub(super) struct Costs {
     /// The most items a leaf may have.
-    leaf_size: u32,
+    pub(super) leaf_size: u32,
     /// Primitives in a block.
     block: u32,
     /// An area added to each, so that memory has a price too.
@@ -200,39 +201,6 @@ impl Plan {
         }
     }
 
-    pub(super) fn is_leaf(&self, node: u32) -> bool {
-        self.choices[node as usize].load(Relaxed) & LEAF != 0
-    }
-
-    /// The subtrees that are the children of the node made of `node`, and how many.
-    pub(super) fn children(&self, tree: &[Node], node: u32) -> ([u32; 8], usize) {
-        let (mut children, mut count) = ([0; 8], 0);
-        // A subtree and how many trees it may be; no more than eight are open, as each takes one of eight.
-        let (mut open, mut opened) = ([(0, 0); 8], 0);
-        let split = |open: &mut [(u32, u32); 8], opened: &mut usize, node, left, trees| {
-            let child = tree[node as usize].first_child();
-            open[*opened] = (child + 1, trees - left);
-            open[*opened + 1] = (child, left);
-            *opened += 2;
-        };
-        split(&mut open, &mut opened, node, self.share_of_left(node, 8), 8);
-        while opened > 0 {
-            opened -= 1;
-            let (node, mut trees) = open[opened];
-            while trees > 1 && self.share_of_left(node, trees) == 0 {
-                trees -= 1;
-            }
-            if trees == 1 {
-                children[count] = node;
-                count += 1;
-            } else {
-                let left = self.share_of_left(node, trees);
-                split(&mut open, &mut opened, node, left, trees);
-            }
-        }
-        (children, count)
-    }
-
     fn share_of_left(&self, node: u32, trees: u32) -> u32 {
         self.choices[node as usize].load(Relaxed) >> choice_shift(trees) & 7
     }
@@ -240,4 +208,68 @@ impl Plan {
 
 fn choice_shift(trees: u32) -> u32 {
     3 * (trees - 2)
+}
+
+/// A binary tree and what becomes of it.
+pub(super) struct Planned {
+    pub(super) tree: Vec<Node>,
+    pub(super) plan: Plan,
+}
+
+impl Shape for Planned {
+    type Part = u32;
+
+    fn whole(&self) -> u32 {
+        0
+    }
+
+    fn is_leaf(&self, node: u32) -> bool {
+        self.plan.choices[node as usize].load(Relaxed) & LEAF != 0
+    }
+
+    fn children(&self, node: u32) -> ([u32; 8], usize) {
+        let (mut children, mut count) = ([0; 8], 0);
+        // A subtree and how many trees it may be; no more than eight are open, as each takes one of eight.
+        let (mut open, mut opened) = ([(0, 0); 8], 0);
+        let split = |open: &mut [(u32, u32); 8], opened: &mut usize, node, left, trees| {
+            let child = self.tree[node as usize].first_child();
+            open[*opened] = (child + 1, trees - left);
+            open[*opened + 1] = (child, left);
+            *opened += 2;
+        };
+        split(
+            &mut open,
+            &mut opened,
+            node,
+            self.plan.share_of_left(node, 8),
+            8,
+        );
+        while opened > 0 {
+            opened -= 1;
+            let (node, mut trees) = open[opened];
+            while trees > 1 && self.plan.share_of_left(node, trees) == 0 {
+                trees -= 1;
+            }
+            if trees == 1 {
+                children[count] = node;
+                count += 1;
+            } else {
+                let left = self.plan.share_of_left(node, trees);
+                split(&mut open, &mut opened, node, left, trees);
+            }
+        }
+        (children, count)
+    }
+
+    fn add_items(&self, node: u32, order: &mut Vec<u32>) {
+        let mut open = vec![node];
+        while let Some(node) = open.pop() {
+            if let Some(item) = self.tree[node as usize].item() {
+                order.push(item);
+            } else {
+                let child = self.tree[node as usize].first_child();
+                open.extend([child + 1, child]);
+            }
+        }
+    }
 }

@@ -1,7 +1,5 @@
-//! The finished tree: what a plan says, with the exact boxes.
+//! The finished tree: what a shape says, with the exact boxes.
 
-use super::binary;
-use super::collapse::Plan;
 use crate::accel::wide::{Kind, Leaf, Node, Reference, Topology};
 use crate::geometry::Bounds;
 use glam::Vec3;
@@ -10,37 +8,48 @@ use rayon::prelude::*;
 /// Subtrees that threads may take at a time.
 const TASKS: usize = 256;
 
-/// A subtree to lay: its node in the binary tree, the depth above it, and where it hangs.
+/// What becomes a tree: parts that are leaves, or have parts of their own.
+pub(super) trait Shape: Sync {
+    /// A subtree.
+    type Part: Copy + Send + Sync;
+    fn whole(&self) -> Self::Part;
+    fn is_leaf(&self, part: Self::Part) -> bool;
+    /// The parts of one that is no leaf, and how many.
+    fn children(&self, part: Self::Part) -> ([Self::Part; 8], usize);
+    /// Adds all that is in a leaf, of one kind.
+    fn add_items(&self, part: Self::Part, order: &mut Vec<u32>);
+}
+
+/// A subtree to lay: the depth above it, and where it hangs.
 #[derive(Clone, Copy)]
-struct Open {
-    from: u32,
+struct Open<P> {
+    from: P,
     depth: usize,
     parent: u32,
     slot: u8,
 }
 
-/// Everything the plan keeps of `tree`, a child soon after its parent.
-pub(super) fn topology(
-    tree: &[binary::Node],
-    plan: &Plan,
+/// The tree of this shape, a child soon after its parent.
+pub(super) fn topology<S: Shape>(
+    shape: &S,
     bounds: &[Bounds],
     kind: &(impl Fn(u32) -> Kind + Sync),
 ) -> Topology {
     let writer = Writer {
-        tree,
-        plan,
+        shape,
         bounds,
         kind,
     };
     let mut top = Topology::default();
     let mut open = std::collections::VecDeque::new();
-    if plan.is_leaf(0) {
+    let whole = shape.whole();
+    if shape.is_leaf(whole) {
         top.nodes.push(Node::EMPTY);
         top.depth = 1;
-        writer.lay_leaf(&mut top, 0, 0, 0);
+        writer.lay_leaf(&mut top, 0, 0, whole);
     } else {
         open.push_back(Open {
-            from: 0,
+            from: whole,
             depth: 0,
             parent: u32::MAX,
             slot: 0,
@@ -51,21 +60,20 @@ pub(super) fn topology(
     {
         open.extend(writer.lay_node(&mut top, next));
     }
-    let open: Vec<Open> = open.into();
+    let open: Vec<Open<S::Part>> = open.into();
     let parts: Vec<Topology> = open.par_iter().map(|&root| writer.part(root)).collect();
     joined(top, &open, parts)
 }
 
-struct Writer<'a, F> {
-    tree: &'a [binary::Node],
-    plan: &'a Plan,
+struct Writer<'a, S, K> {
+    shape: &'a S,
     bounds: &'a [Bounds],
-    kind: &'a F,
+    kind: &'a K,
 }
 
-impl<F: Fn(u32) -> Kind> Writer<'_, F> {
+impl<S: Shape, K: Fn(u32) -> Kind> Writer<'_, S, K> {
     /// A subtree by itself, its boxes all known.
-    fn part(&self, root: Open) -> Topology {
+    fn part(&self, root: Open<S::Part>) -> Topology {
         let mut part = Topology::default();
         let mut open = vec![Open {
             parent: u32::MAX,
@@ -82,16 +90,20 @@ impl<F: Fn(u32) -> Kind> Writer<'_, F> {
     }
 
     /// Adds a node and its leaves; returns its other children.
-    fn lay_node(&self, part: &mut Topology, open: Open) -> impl Iterator<Item = Open> + use<'_, F> {
+    fn lay_node(
+        &self,
+        part: &mut Topology,
+        open: Open<S::Part>,
+    ) -> impl Iterator<Item = Open<S::Part>> + use<'_, S, K> {
         let index = part.nodes.len() as u32;
         part.nodes.push(Node::EMPTY);
         part.depth = part.depth.max(open.depth + 1);
         if let Some(parent) = part.nodes.get_mut(open.parent as usize) {
             parent.children[open.slot as usize] = Reference::new(Kind::Node, index);
         }
-        let (children, count) = self.plan.children(self.tree, open.from);
+        let (children, count) = self.shape.children(open.from);
         for (slot, &child) in children[..count].iter().enumerate() {
-            if self.plan.is_leaf(child) {
+            if self.shape.is_leaf(child) {
                 self.lay_leaf(part, index, slot, child);
             }
         }
@@ -102,22 +114,17 @@ impl<F: Fn(u32) -> Kind> Writer<'_, F> {
                 parent: index,
                 slot: slot as u8,
             })
-            .filter(|child| !self.plan.is_leaf(child.from))
+            .filter(|child| !self.shape.is_leaf(child.from))
     }
 
-    /// Adds a leaf of all items below `from`.
-    fn lay_leaf(&self, part: &mut Topology, parent: u32, slot: usize, from: u32) {
+    /// Adds a leaf of all items of `from`.
+    fn lay_leaf(&self, part: &mut Topology, parent: u32, slot: usize, from: S::Part) {
         let first = part.order.len();
-        let (mut open, mut around) = (vec![from], Bounds::EMPTY);
-        while let Some(node) = open.pop() {
-            if let Some(item) = self.tree[node as usize].item() {
-                part.order.push(item);
-                around = around.union(self.bounds[item as usize]);
-            } else {
-                let child = self.tree[node as usize].first_child();
-                open.extend([child + 1, child]);
-            }
-        }
+        self.shape.add_items(from, &mut part.order);
+        let items = part.order[first..].iter();
+        let around = items
+            .map(|&item| self.bounds[item as usize])
+            .fold(Bounds::EMPTY, Bounds::union);
         let reference = Reference::new((self.kind)(part.order[first]), part.leaves.len() as u32);
         part.leaves.push(Leaf {
             first: first as u32,
@@ -162,7 +169,7 @@ fn around(node: &Node) -> Bounds {
 }
 
 /// The top of the tree and the parts below it, in one.
-fn joined(mut whole: Topology, open: &[Open], parts: Vec<Topology>) -> Topology {
+fn joined<P>(mut whole: Topology, open: &[Open<P>], parts: Vec<Topology>) -> Topology {
     let count = |of: fn(&Topology) -> usize| parts.iter().map(of).sum::<usize>();
     whole.nodes.reserve_exact(count(|part| part.nodes.len()));
     whole.leaves.reserve_exact(count(|part| part.leaves.len()));

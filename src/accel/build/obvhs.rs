@@ -5,7 +5,7 @@
 //! nothing. Its reinsertion has a stack of fixed size and no limit on its search, so the tree gets ours.
 
 use super::binary::Node;
-use super::clustered;
+use super::{clustered, curve};
 use crate::accel::Preset;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -17,7 +17,7 @@ const MOST_EQUAL: usize = 64;
 
 /// The nodes over `leaves`, the root first and siblings side by side: obvhs's, or our own where obvhs would stall.
 pub(super) fn joined(leaves: Vec<Node>, preset: Preset) -> Vec<Node> {
-    let leaves = clustered::along_curve(leaves);
+    let leaves = curve::sorted(leaves);
     let tried = clustered::joined(leaves.clone(), 2, 0);
     if leaves.len() < 3 || tried.stalled || longest_run(&leaves) > MOST_EQUAL {
         return tried.nodes;

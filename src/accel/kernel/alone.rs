@@ -4,7 +4,7 @@ use super::answer::Question;
 use super::bundle::Octant;
 use super::float::{Machine, Task};
 use super::rays::Rays;
-use super::single::{self, Waiting};
+use super::single::{self, Level, Waiting};
 use super::spread::Spread;
 use crate::accel::Accel;
 use crate::accel::wide::Reference;
@@ -61,7 +61,11 @@ impl<Q: Question> Task for Alone<'_, '_, Q> {
             rays,
             stack,
         } = self.search;
-        let (tree, meshes) = (&accel.world, &accel.meshes);
+        let level = Level {
+            tree: &accel.world,
+            meshes: &accel.meshes,
+            first_number: 0,
+        };
         let mut left = self.live;
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
@@ -69,9 +73,8 @@ impl<Q: Question> Task for Alone<'_, '_, Q> {
             let Some(ray) = chunk.get(lane) else { return };
             let wide = Spread::of(rays, self.octant, lane);
             let mut best = rays.best(lane);
-            let found = single::walk::<M, Q, true>(
-                tree, meshes, self.start, 0, ray, &wide, &mut best, stack,
-            );
+            let found =
+                single::walk::<M, Q, true>(&level, self.start, ray, &wide, &mut best, stack);
             if found {
                 rays.live &= !(1 << lane);
             } else if !Q::ANY {

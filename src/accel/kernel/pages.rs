@@ -5,7 +5,7 @@
 //! incoherent rays gain up to a tenth, coherent ones nothing that stands out of the noise.
 
 use std::alloc::{Layout, alloc, dealloc, handle_alloc_error};
-use std::ops::Deref;
+use std::ops::{Deref, DerefMut};
 use std::ptr::NonNull;
 
 /// A huge page of x86-64, and of aarch64 where the small ones have 4 KiB.
@@ -25,13 +25,25 @@ unsafe impl<T: Send> Send for Pages<T> {}
 unsafe impl<T: Sync> Sync for Pages<T> {}
 
 impl<T: Copy> Pages<T> {
+    /// `count` times the same.
+    pub(in crate::accel) fn filled(item: T, count: usize) -> Pages<T> {
+        Pages::written(count, |_| item)
+    }
+
     /// A copy.
     pub(in crate::accel) fn of(items: &[T]) -> Pages<T> {
-        let layout = room(Layout::for_value(items));
+        Pages::written(items.len(), |index| items[index])
+    }
+
+    fn written(count: usize, item: impl Fn(usize) -> T) -> Pages<T> {
+        // As with a `Vec`, more than the address space holds is out of memory.
+        let slice =
+            Layout::array::<T>(count).unwrap_or_else(|_| handle_alloc_error(Layout::new::<T>()));
+        let layout = room(slice);
         if layout.size() == 0 {
             return Pages {
                 first: NonNull::dangling(),
-                count: items.len(),
+                count,
                 layout,
             };
         }
@@ -43,15 +55,13 @@ impl<T: Copy> Pages<T> {
         if layout.align() == HUGE {
             ask_for_huge_pages(first.cast(), layout.size());
         }
-        // SAFETY: the new memory has room for the items, is aligned for them, and overlaps nothing; they are `Copy`.
-        unsafe {
-            first
-                .as_ptr()
-                .copy_from_nonoverlapping(items.as_ptr(), items.len())
-        };
+        for index in 0..count {
+            // SAFETY: the new memory is aligned for `count` items, and has room for them.
+            unsafe { first.as_ptr().add(index).write(item(index)) };
+        }
         Pages {
             first,
-            count: items.len(),
+            count,
             layout,
         }
     }
@@ -88,15 +98,22 @@ impl<T> Deref for Pages<T> {
 
     #[inline(always)]
     fn deref(&self) -> &[T] {
-        // SAFETY: `of` put so many items there; where nothing was allocated, none is read.
+        // SAFETY: `written` put so many items there; where nothing was allocated, none is read.
         unsafe { std::slice::from_raw_parts(self.first.as_ptr(), self.count) }
+    }
+}
+
+impl<T> DerefMut for Pages<T> {
+    fn deref_mut(&mut self) -> &mut [T] {
+        // SAFETY: as in `deref`, and this is the only reference.
+        unsafe { std::slice::from_raw_parts_mut(self.first.as_ptr(), self.count) }
     }
 }
 
 impl<T> Drop for Pages<T> {
     fn drop(&mut self) {
         if self.layout.size() != 0 {
-            // SAFETY: allocated in `of` with this layout; the items are `Copy` and need no drop.
+            // SAFETY: allocated in `written` with this layout; the items are `Copy` and need no drop.
             unsafe { dealloc(self.first.as_ptr().cast(), self.layout) }
         }
     }
@@ -131,6 +148,7 @@ mod tests {
             let pages = Pages::of(&items);
             assert_eq!(*pages, *items);
             assert_eq!(*pages.clone(), *items);
+            assert_eq!(*Pages::filled(7, items.len()), *vec![7; items.len()]);
         }
     }
 

@@ -61,21 +61,32 @@ pub(super) fn prefetch<M: Machine>(tree: &Tree, reference: Reference) {
     }
 }
 
+/// A tree to walk.
+pub(super) struct Level<'a> {
+    pub(super) tree: &'a Tree,
+    /// The trees that its instances lead to.
+    pub(super) meshes: &'a [Tree],
+    /// What the numbers of its primitives start from.
+    pub(super) first_number: u32,
+}
+
 /// Follows the ray from `start` down; hits go to `best`. True at once where the question is [`Any`] and one is opaque.
 ///
-/// `wide` is the ray in `tree`'s space, spread. `meshes` are the trees that instances lead to, `first_number` what the numbers of a mesh start from. `stack` has room
-/// for both levels.
+/// `wide` is `ray`, which is in the tree's space. `stack` has room for this tree and the meshes' trees.
+///
+/// [`Any`]: super::answer::Any
 #[inline(always)]
 pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
-    tree: &Tree,
-    meshes: &[Tree],
+    level: &Level,
     start: Reference,
-    first_number: u32,
     ray: &Ray,
     wide: &Spread<M::F8>,
     best: &mut Best,
     stack: &mut [Waiting],
 ) -> bool {
+    let Level {
+        tree, first_number, ..
+    } = *level;
     let mut waiting = 0;
     let mut next = start;
     loop {
@@ -147,7 +158,7 @@ pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
                 let instance = &tree.instances[next.index() >> 2];
                 if OUTER
                     && (instance.opaque || !Q::ANY)
-                    && inside::<M, Q>(tree, meshes, instance, ray, best, &mut stack[waiting..])
+                    && inside::<M, Q>(level, instance, ray, best, &mut stack[waiting..])
                 {
                     return true;
                 }
@@ -170,24 +181,25 @@ pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
 /// Follows the ray through an instance's own tree.
 #[inline(always)]
 fn inside<M: Machine, Q: Question>(
-    tree: &Tree,
-    meshes: &[Tree],
+    level: &Level,
     instance: &SharedInstance,
     ray: &Ray,
     best: &mut Best,
     stack: &mut [Waiting],
 ) -> bool {
-    let mesh = &meshes[instance.mesh as usize];
-    let probe = Probe::new(*ray, tree.extent);
+    let mesh = &level.meshes[instance.mesh as usize];
+    let probe = Probe::new(*ray, level.tree.extent);
     let Some(local) = probe.in_space(&instance.space, mesh.extent) else {
         return false;
     };
     local.ray.t_min <= best.t
         && walk::<M, Q, false>(
-            mesh,
-            &[],
+            &Level {
+                tree: mesh,
+                meshes: &[],
+                first_number: instance.first_primitive,
+            },
             Reference::ROOT,
-            instance.first_primitive,
             &local.ray,
             &Spread::new(&local),
             best,
