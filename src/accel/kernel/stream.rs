@@ -9,10 +9,11 @@ use super::alone::Search;
 use super::answer::Question;
 use super::bundle::Octant;
 use super::float::{Float, Machine, Sets, Task};
+use super::rays::Rays;
 use super::single::prefetch;
 use super::spread::{Slabs, Spread, first, sides};
 use crate::accel::tree::TriangleBlock;
-use crate::accel::wide::{Kind, Reference};
+use crate::accel::wide::{Kind, Node, Reference};
 use std::marker::PhantomData;
 
 /// What waits to be visited, and by whom; `near` is where the first of them enters it.
@@ -83,22 +84,7 @@ impl<Q: Question> Task for Stream<'_, '_, Q> {
                     let Some(node) = tree.nodes.get(next.index()) else {
                         return;
                     };
-                    let sides = sides::<M::F8>(node, octant);
-                    let mut sets = M::Sets::none();
-                    let mut nearest = M::F8::splat(f32::INFINITY);
-                    let mut any = 0;
-                    while live != 0 {
-                        let lane = live.trailing_zeros() as usize;
-                        live &= live - 1;
-                        let ray = Slabs::<M::F8>::of(search.rays, lane);
-                        let (enter, met) = ray.meets(sides, search.rays.t.get(lane));
-                        sets.add(met, lane);
-                        any |= met;
-                        nearest = M::F8::select(met, enter.min(nearest), nearest);
-                    }
-                    let sets = sets.get();
-                    let mut nears = [0.0; 8];
-                    nearest.store(&mut nears);
+                    let (sets, nears, mut any) = meets::<M>(search.rays, octant, node, live);
                     let bottom = waiting;
                     while any != 0 {
                         let slot = first(any) & 7;
@@ -145,31 +131,52 @@ impl<Q: Question> Task for Stream<'_, '_, Q> {
     }
 }
 
-/// Tests each ray of `live`, all of `octant`, against the block's triangles. Whether any was hit.
+/// Which rays of `live`, all of `octant`, meet each child of a node; where the first of them enters it; and the children
+/// that any meets.
 #[inline(always)]
-pub(super) fn triangles<M: Machine, Q: Question>(
+fn meets<M: Machine>(
+    rays: &Rays,
+    octant: Octant,
+    node: &Node,
+    mut live: u64,
+) -> ([u64; 8], [f32; 8], u32) {
+    let sides = sides::<M::F8>(node, octant);
+    let (mut sets, mut any) = (M::Sets::none(), 0);
+    let mut nearest = M::F8::splat(f32::INFINITY);
+    while live != 0 {
+        let lane = live.trailing_zeros() as usize;
+        live &= live - 1;
+        let (enter, met) = Slabs::<M::F8>::of(rays, lane).meets(sides, rays.t.get(lane));
+        sets.add(met, lane);
+        any |= met;
+        nearest = M::F8::select(met, enter.min(nearest), nearest);
+    }
+    let mut nears = [0.0; 8];
+    nearest.store(&mut nears);
+    (sets.get(), nears, any)
+}
+
+/// Tests each ray of `live`, all of `octant`, against the block's triangles.
+#[inline(always)]
+fn triangles<M: Machine, Q: Question>(
     search: &mut Search,
     octant: Octant,
     block: &TriangleBlock,
     mut live: u64,
-) -> bool {
-    let mut any = false;
+) {
     while live != 0 {
         let lane = live.trailing_zeros() as usize;
         live &= live - 1;
         let Some(ray) = search.chunk.get(lane) else {
-            return any;
+            return;
         };
         let wide = Spread::<M::F8>::of(search.rays, octant, lane);
         let before = search.rays.best(lane);
         let mut best = before;
         if wide.triangles::<Q>(block, 0, ray, before.t, &mut best) {
             search.rays.live &= !(1 << lane);
-            any = true;
         } else if !Q::ANY && best.number != before.number {
             search.rays.set_best(lane, &best);
-            any = true;
         }
     }
-    any
 }
