@@ -6,7 +6,10 @@
 
 mod build;
 mod items;
-#[expect(unsafe_code, reason = "registers; every block says why it is sound")]
+#[expect(
+    unsafe_code,
+    reason = "registers and pages; every block says why it is sound"
+)]
 mod kernel;
 pub mod linear;
 mod options;

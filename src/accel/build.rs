@@ -1,4 +1,5 @@
-//! The builder of the tree that rays walk: binary trees first, then the better of them with eight children a node.
+//! The builder of the tree that rays walk: binary trees first, then the better of them with eight children a node; or, in a
+//! hurry, eight children a node at once.
 
 mod binary;
 mod binned;
@@ -49,14 +50,12 @@ pub(super) fn build(
     let shape = match effort.trees {
         _ if options.builder == Builder::Obvhs => planned(obvhs::joined(leaves, options.preset)),
         Trees::Curve => {
-            let places = curve::order(&leaves);
-            drop(leaves);
-            let leaf_size = costs.leaf_size;
             let curve = Curve {
-                places,
-                leaf_size,
+                places: curve::order(&leaves),
+                leaf_size: costs.leaf_size,
                 kind: &kind,
             };
+            drop(leaves);
             return emit::topology(&curve, bounds, &kind);
         }
         Trees::Clustered => clustered(leaves),

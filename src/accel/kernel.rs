@@ -1,4 +1,4 @@
-//! The way of rays through trees: the only place that knows registers.
+//! The way of rays through trees: the only place that knows registers, and pages of memory.
 //!
 //! Everything is written once, over [`float::Float`], and compiled for each instruction set; [`Isa`] is the proof that the
 //! machine has it.

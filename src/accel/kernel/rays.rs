@@ -1,4 +1,4 @@
-//! Up to 64 rays side by side, and what they met so far; which of them go the same way.
+//! Up to 64 rays side by side, and what they met so far.
 
 use super::answer::Best;
 use super::float::{Float, Machine};

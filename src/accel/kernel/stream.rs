@@ -3,7 +3,7 @@
 //! Rays of one octant that are too unlike, or too few, for a packet's interval. A single ray waits for each test before
 //! it knows the next; tests of different rays wait for nothing. (Tsakok 2009, "Faster Incoherent Rays: Multi-BVH Ray
 //! Stream Tracing"; Barringer and Akenine-Moeller 2014, "Dynamic Ray Stream Traversal".) `benches/rays.rs`, `mesh`:
-//! incoherent rays are 1.4 times, mirror rays 1.8 times as fast as alone.
+//! next to Embree's, incoherent rays went from 0.88 to 1.3, mirror rays from 1.5 to 1.9 and more.
 
 use super::alone::Search;
 use super::answer::Question;
