@@ -5,6 +5,7 @@
 //! camera's through a tile of pixels, those from one light.
 
 mod build;
+mod cost;
 mod items;
 #[expect(
     unsafe_code,
@@ -13,19 +14,22 @@ mod items;
 mod kernel;
 pub mod linear;
 mod options;
+mod others;
 mod primitive;
 mod slab;
 mod tree;
 mod wide;
 
+pub use cost::Tests;
 pub use kernel::{Isa, IsaError};
 pub use options::{Builder, Layout, Options, Preset};
 
 use crate::geometry::{Hit, Plane};
 use crate::ray::Ray;
 use crate::scene::{InstanceSpace, Scene};
-use items::{mesh_tree, world_tree};
-use kernel::Scratch;
+use items::{ItemsOfWorld, of_shared};
+use kernel::{Best, Scratch};
+use others::{Other, Others};
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
 use tree::Tree;
@@ -39,6 +43,8 @@ pub struct Accel {
     planes: Vec<NumberedPlane>,
     world: Tree,
     meshes: Vec<Tree>,
+    /// What stands in the place of these trees where another layout was asked for: they are empty then.
+    others: Option<Others>,
     isa: Isa,
     packets: bool,
     has_transparent: bool,
@@ -67,15 +73,16 @@ struct SharedInstance {
 /// What was built, and what it took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// Nodes of all trees, each of up to eight children.
+    /// Nodes of all trees that have children: up to eight each, two in [`Layout::Bvh2`].
     pub nodes: usize,
     /// Their leaves.
     pub leaves: usize,
     /// Nodes on the longest way from a root to a leaf, both levels added.
     pub depth: usize,
-    /// Nodes and primitives as they lie in memory.
+    /// Nodes, leaves and primitives as they lie in memory.
     pub bytes: usize,
-    /// The surface-area cost of the tree over the world, a node and a primitive costing 1 each
+    /// The surface-area cost of the tree over the world, a node and a primitive costing 1 each; without a tree, all
+    /// primitives
     /// (MacDonald and Booth 1990, "Heuristics for ray tracing using space subdivision").
     pub sah_cost: f32,
     /// From the scene to the finished trees.
@@ -100,23 +107,30 @@ impl Accel {
                 opaque: opaque(p.material),
             })
             .collect();
-        let mut meshes = vec![Tree::default(); scene.meshes().len()];
-        for instance in scene.instances().iter().filter(|i| i.space.is_some()) {
-            let tree = &mut meshes[instance.mesh as usize];
-            if tree.nodes.is_empty() {
-                *tree = mesh_tree(scene, instance.mesh, options);
-            }
-        }
         let mut accel = Accel {
             planes,
-            meshes,
-            world: world_tree(scene, options),
+            meshes: Vec::new(),
+            world: Tree::default(),
+            others: None,
             isa: options.isa,
             packets: options.packets,
             has_transparent: (0..scene.materials().len() as u32).any(|material| !opaque(material)),
             stack_size: 0,
             statistics: Statistics::default(),
         };
+        let world = || ItemsOfWorld::new(scene);
+        match options.layout {
+            Layout::Wide | Layout::Small => {
+                accel.meshes = of_shared(scene, |mesh| Tree::of(mesh, options));
+                accel.world = Tree::of(&world(), options);
+            }
+            Layout::Bvh2 | Layout::CwBvh | Layout::List => {
+                accel.others = Some(Others {
+                    meshes: of_shared(scene, |mesh| Other::of(mesh, options)),
+                    world: Other::of(&world(), options),
+                });
+            }
+        }
         let of_meshes = accel.meshes.iter().map(Tree::stack_size).max();
         accel.stack_size = accel.world.stack_size() + of_meshes.unwrap_or(0);
         accel.statistics = Statistics {
@@ -137,7 +151,10 @@ impl Accel {
     pub fn intersect_all(&self, rays: &[Ray], hits: &mut Vec<Option<Hit>>) {
         hits.clear();
         hits.reserve(rays.len());
-        SCRATCH.with_borrow_mut(|scratch| kernel::closest(self, rays, scratch, hits));
+        match &self.others {
+            Some(others) => hits.extend(rays.iter().map(|ray| others.intersect(self, ray))),
+            None => SCRATCH.with_borrow_mut(|scratch| kernel::closest(self, rays, scratch, hits)),
+        }
     }
 
     /// Whether the ray meets any opaque primitive.
@@ -151,7 +168,12 @@ impl Accel {
     pub fn occluded_all(&self, rays: &[Ray], occluded: &mut Vec<bool>) {
         occluded.clear();
         occluded.reserve(rays.len());
-        SCRATCH.with_borrow_mut(|scratch| kernel::occluded(self, rays, scratch, occluded));
+        match &self.others {
+            Some(others) => occluded.extend(rays.iter().map(|ray| others.occluded(self, ray))),
+            None => {
+                SCRATCH.with_borrow_mut(|scratch| kernel::occluded(self, rays, scratch, occluded));
+            }
+        }
     }
 
     /// Whether any material of the scene lets some light through, so that [`Accel::occluded`] is not the whole answer.
@@ -169,16 +191,45 @@ impl Accel {
         &self.statistics
     }
 
-    fn measure(&self) -> Statistics {
-        let deepest_mesh = self.meshes.iter().map(|mesh| mesh.depth).max().unwrap_or(0);
-        let all = || self.meshes.iter().chain([&self.world]);
-        Statistics {
-            nodes: all().map(|tree| tree.nodes.len()).sum(),
-            leaves: all().map(|tree| tree.leaves).sum(),
-            depth: self.world.depth + deepest_mesh,
-            bytes: all().map(Tree::bytes).sum(),
-            sah_cost: self.world.sah_cost,
-            build_time: Duration::ZERO,
+    /// How many leaves of all trees hold one primitive or instance, how many two, and so on.
+    pub fn leaf_sizes(&self) -> Vec<u64> {
+        let mut sizes = Vec::new();
+        for tree in self.meshes.iter().chain([&self.world]) {
+            tree.add_leaf_sizes(&mut sizes);
         }
+        for other in self.others.iter().flat_map(Others::all) {
+            other.add_leaf_sizes(&mut sizes);
+        }
+        sizes
+    }
+
+    /// Offers a ray the planes that it meets.
+    fn offer_planes(&self, ray: &Ray, best: &mut Best) {
+        for p in &self.planes {
+            if let Some(hit) = primitive::plane(&p.plane, ray, p.number) {
+                best.offer(hit.t, hit.primitive, hit.barycentric);
+            }
+        }
+    }
+
+    fn meets_opaque_plane(&self, ray: &Ray) -> bool {
+        let mut opaque = self.planes.iter().filter(|p| p.opaque);
+        opaque.any(|p| primitive::plane(&p.plane, ray, p.number).is_some())
+    }
+
+    fn measure(&self) -> Statistics {
+        let mut all = self.world.statistics();
+        let mut meshes: Vec<Statistics> = self.meshes.iter().map(Tree::statistics).collect();
+        if let Some(others) = &self.others {
+            all = others.world.statistics();
+            meshes = others.meshes.iter().map(Other::statistics).collect();
+        }
+        all.depth += meshes.iter().map(|mesh| mesh.depth).max().unwrap_or(0);
+        for mesh in meshes {
+            all.nodes += mesh.nodes;
+            all.leaves += mesh.leaves;
+            all.bytes += mesh.bytes;
+        }
+        all
     }
 }

@@ -1,7 +1,9 @@
 //! Search: every fast path gives the bits of the oracle.
 
 mod batches;
+mod cost;
 mod kernels;
+mod layouts;
 mod memory;
 mod odd;
 mod watertight;

@@ -16,7 +16,7 @@ mod tests;
 use super::wide::{Kind, Topology};
 use super::{Builder, Options, Preset};
 use crate::geometry::Bounds;
-use binary::Node;
+pub(super) use binary::Node;
 use collapse::{Costs, Plan, Planned};
 use curve::Curve;
 
@@ -31,12 +31,55 @@ pub(super) fn build(
     if bounds.is_empty() {
         return Topology::default();
     }
-    let effort = Effort::of(options.preset);
     let leaves = scaled::leaves(bounds);
     let costs = Costs::new(&leaves, options);
+    let effort = Effort::of(options.preset);
+    if matches!(effort.trees, Trees::Curve) && options.builder == Builder::Own {
+        let curve = Curve {
+            places: curve::order(&leaves),
+            leaf_size: costs.leaf_size,
+            kind: &kind,
+        };
+        drop(leaves);
+        return emit::topology(&curve, bounds, &kind);
+    }
+    let shape = planned(leaves, &kind, &costs, &effort, options);
+    emit::topology(&shape, bounds, &kind)
+}
+
+/// The binary tree over `bounds` alone, for layouts that are not ours: one item a leaf, the root first, its boxes in a
+/// space of their own. Where [`build`] would make no binary tree, that of the next preset.
+pub(super) fn binary(
+    bounds: &[Bounds],
+    kind: impl Fn(u32) -> Kind + Sync,
+    options: &Options,
+) -> Vec<Node> {
+    if bounds.is_empty() {
+        return Vec::new();
+    }
+    let leaves = scaled::leaves(bounds);
+    let costs = Costs::new(&leaves, options);
+    let effort = match Effort::of(options.preset) {
+        Effort {
+            trees: Trees::Curve,
+            ..
+        } => Effort::of(Preset::VeryFast),
+        effort => effort,
+    };
+    planned(leaves, &kind, &costs, &effort, options).tree
+}
+
+/// The binary tree that the options ask for, and what becomes of its nodes.
+fn planned(
+    leaves: Vec<Node>,
+    kind: &(impl Fn(u32) -> Kind + Sync),
+    costs: &Costs,
+    effort: &Effort,
+    options: &Options,
+) -> Planned {
     let planned = |mut tree: Vec<Node>| {
         reinsertion::improve(&mut tree, effort.reinserted, effort.rounds);
-        let plan = Plan::new(&tree, &kind, &costs);
+        let plan = Plan::new(&tree, kind, costs);
         Planned { tree, plan }
     };
     // Neither tree is the better for all scenes: the first is for rooms full of things, the second for landscapes and hair.
@@ -47,26 +90,16 @@ pub(super) fn build(
         drop(leaves);
         planned(nodes)
     };
-    let shape = match effort.trees {
+    match effort.trees {
         _ if options.builder == Builder::Obvhs => planned(obvhs::joined(leaves, options.preset)),
-        Trees::Curve => {
-            let curve = Curve {
-                places: curve::order(&leaves),
-                leaf_size: costs.leaf_size,
-                kind: &kind,
-            };
-            drop(leaves);
-            return emit::topology(&curve, bounds, &kind);
-        }
-        Trees::Clustered => clustered(leaves),
+        Trees::Curve | Trees::Clustered => clustered(leaves),
         Trees::Binned => binned(leaves),
         Trees::Both => {
             let copy = leaves.clone();
             let (a, b) = rayon::join(|| clustered(leaves), || binned(copy));
             if a.plan.cost < b.plan.cost { a } else { b }
         }
-    };
-    emit::topology(&shape, bounds, &kind)
+    }
 }
 
 /// Which trees are built.

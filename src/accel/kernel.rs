@@ -11,6 +11,7 @@ mod avx2;
 mod avx512;
 mod batch;
 mod bundle;
+mod counted;
 mod equation;
 mod float;
 mod interval;
@@ -23,7 +24,9 @@ mod single;
 mod spread;
 mod stream;
 
+pub(super) use answer::{Any, Best, Closest, Question};
 pub(super) use batch::Scratch;
+pub(super) use counted::counted;
 pub use isa::{Isa, IsaError};
 pub(super) use pages::Pages;
 

@@ -1,10 +1,12 @@
 //! A tree with its primitives laid into it.
 
+use super::items::Items;
 use super::kernel::Pages;
 use super::wide::{Kind, Node, Reference, Topology};
-use super::{Layout, SharedInstance};
+use super::{Layout, Options, SharedInstance, Statistics, build};
 use crate::geometry::{Sphere, Triangle};
 use rayon::prelude::*;
+use std::time::Duration;
 
 /// The bit of a primitive's number that says that light passes through it.
 const TRANSPARENT: u32 = 1 << 31;
@@ -26,6 +28,14 @@ impl Number {
 
     pub(super) fn new(number: u32, opaque: bool) -> Number {
         Number(if opaque { number } else { number | TRANSPARENT })
+    }
+
+    /// How many lanes of a block have a primitive.
+    pub(super) fn count(lanes: &[Number]) -> u32 {
+        lanes
+            .iter()
+            .filter(|&&number| number != Number::NONE)
+            .count() as u32
     }
 
     pub(super) fn get(self) -> u32 {
@@ -135,6 +145,17 @@ pub(super) struct Tree {
     pub(super) sah_cost: f32,
 }
 
+/// Counts a leaf of so many primitives.
+pub(super) fn add_leaf(sizes: &mut Vec<u64>, size: u32) {
+    let Some(index) = (size as usize).checked_sub(1) else {
+        return;
+    };
+    if sizes.len() <= index {
+        sizes.resize(index + 1, 0);
+    }
+    sizes[index] += 1;
+}
+
 /// The blocks that a leaf's reference stands for.
 #[inline(always)]
 pub(super) fn blocks(reference: Reference) -> std::ops::Range<usize> {
@@ -167,8 +188,16 @@ impl LeafBlocks<'_> {
 }
 
 impl Tree {
+    /// The tree over all items.
+    pub(super) fn of(items: &impl Items, options: &Options) -> Tree {
+        let topology = build::build(items.bounds(), |index| items.kind(index), options);
+        Tree::new(topology, items.extent(), options.layout, |index| {
+            items.item(index)
+        })
+    }
+
     /// Lays the items, in the order of the leaves, into blocks. `extent` is the greatest absolute coordinate.
-    pub(super) fn new(
+    fn new(
         topology: Topology,
         extent: f32,
         layout: Layout,
@@ -236,13 +265,48 @@ impl Tree {
         }
     }
 
+    /// Adds how many leaves hold one primitive or instance, two, and so on.
+    pub(super) fn add_leaf_sizes(&self, sizes: &mut Vec<u64>) {
+        let children = self.nodes.iter().flat_map(|node| node.children);
+        for child in children.filter(|&child| child != Reference::NONE) {
+            let size = match child.kind() {
+                Kind::Node => continue,
+                Kind::Triangles => {
+                    let (mut leaf, mut size) = (self.leaf(child), 0);
+                    while let Some(block) = leaf.next() {
+                        size += Number::count(&block.numbers);
+                    }
+                    size
+                }
+                Kind::Spheres => {
+                    let blocks = self.spheres[blocks(child)].iter();
+                    blocks.map(|block| Number::count(&block.numbers)).sum()
+                }
+                Kind::Instances => 1,
+            };
+            add_leaf(sizes, size);
+        }
+    }
+
     /// The most entries that a walk down this tree leaves on its stack.
     pub(super) fn stack_size(&self) -> usize {
         7 * self.depth + 8
     }
 
+    /// Of this tree alone.
+    pub(super) fn statistics(&self) -> Statistics {
+        Statistics {
+            nodes: self.nodes.len(),
+            leaves: self.leaves,
+            depth: self.depth,
+            bytes: self.bytes(),
+            sah_cost: self.sah_cost,
+            build_time: Duration::ZERO,
+        }
+    }
+
     /// Nodes and blocks, in bytes.
-    pub(super) fn bytes(&self) -> usize {
+    fn bytes(&self) -> usize {
         size_of_val(&*self.nodes)
             + size_of_val(&*self.triangles)
             + size_of_val(&*self.fours)

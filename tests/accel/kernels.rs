@@ -62,10 +62,10 @@ fn ways(scene: &Scene) -> Vec<Options> {
 }
 
 /// How many rays each kernel was compared on, by its name and whether in packets.
-type Compared = BTreeMap<(&'static str, bool), usize>;
+pub(super) type Compared = BTreeMap<(&'static str, bool), usize>;
 
-/// Compares all ways on some batches, and counts.
-fn compare(name: &str, scene: &Scene, batches: &[Batch]) -> Compared {
+/// Compares the ways on some batches, and counts.
+pub(super) fn compare(name: &str, scene: &Scene, batches: &[Batch], ways: &[Options]) -> Compared {
     let expected: Vec<Vec<_>> = batches
         .iter()
         .map(|batch| {
@@ -101,7 +101,7 @@ fn compare(name: &str, scene: &Scene, batches: &[Batch]) -> Compared {
         }
         ((options.isa.name(), options.packets), count)
     };
-    let counts: Vec<_> = ways(scene).par_iter().map(compare_one).collect();
+    let counts: Vec<_> = ways.par_iter().map(compare_one).collect();
     let mut compared = Compared::new();
     for (kernel, count) in counts {
         *compared.entry(kernel).or_default() += count;
@@ -136,7 +136,7 @@ fn every_kernel_of_this_machine_equals_the_oracle() {
             name: "nasty",
             rays: scenes::nasty_rays(&scene, 300),
         });
-        for (kernel, count) in compare(name, &scene, &batches) {
+        for (kernel, count) in compare(name, &scene, &batches, &ways(&scene)) {
             *compared.entry(kernel).or_default() += count;
         }
     }

@@ -4,7 +4,7 @@ use glam::{Vec3A, Vec4};
 
 /// A leaf with one item, or an inner node: 32 bytes.
 #[derive(Clone, Copy)]
-pub(super) struct Node {
+pub(in crate::accel) struct Node {
     /// The least corner, and the bits of the item or of the first child's index.
     low: Vec4,
     /// The greatest corner, and 1 for a leaf or 0.
@@ -35,17 +35,17 @@ impl Node {
         Vec3A::from_vec4(self.high)
     }
 
-    pub(super) fn is_leaf(&self) -> bool {
+    pub(in crate::accel) fn is_leaf(&self) -> bool {
         self.high.w != 0.0
     }
 
     /// The item of a leaf.
-    pub(super) fn item(&self) -> Option<u32> {
+    pub(in crate::accel) fn item(&self) -> Option<u32> {
         self.is_leaf().then_some(self.low.w.to_bits())
     }
 
     /// The left child of an inner node; the right one is the next.
-    pub(super) fn first_child(&self) -> u32 {
+    pub(in crate::accel) fn first_child(&self) -> u32 {
         self.low.w.to_bits()
     }
 

@@ -35,6 +35,8 @@ impl Costs {
         let (block, weight) = match options.layout {
             Layout::Wide => (8, 0.2),
             Layout::Small => (4, 0.3),
+            // One at a time.
+            Layout::Bvh2 | Layout::CwBvh | Layout::List => (1, 0.0),
         };
         Costs {
             leaf_size: options.leaf_size.map_or(8, |n| u32::from(n.get())).min(16),

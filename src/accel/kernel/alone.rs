@@ -7,6 +7,7 @@ use super::rays::Rays;
 use super::single::{self, Level, Waiting};
 use super::spread::Spread;
 use crate::accel::Accel;
+use crate::accel::cost::Uncounted;
 use crate::accel::wide::Reference;
 use crate::ray::Ray;
 use std::marker::PhantomData;
@@ -73,8 +74,15 @@ impl<Q: Question> Task for Alone<'_, '_, Q> {
             let Some(ray) = chunk.get(lane) else { return };
             let wide = Spread::of(rays, self.octant, lane);
             let mut best = rays.best(lane);
-            let found =
-                single::walk::<M, Q, true>(&level, self.start, ray, &wide, &mut best, stack);
+            let found = single::walk::<M, Q, Uncounted, true>(
+                &level,
+                self.start,
+                ray,
+                &wide,
+                &mut best,
+                stack,
+                &mut Uncounted,
+            );
             if found {
                 rays.live &= !(1 << lane);
             } else if !Q::ANY {

@@ -34,6 +34,12 @@ impl Scratch {
         }
     }
 
+    /// Room for the whole way of one ray.
+    pub(super) fn stack(&mut self, size: usize) -> &mut [Waiting] {
+        self.make_room(size);
+        &mut self.waiting
+    }
+
     fn make_room(&mut self, size: usize) {
         if self.waiting.len() < size {
             self.waiting.resize(size, Waiting::NOTHING);

@@ -8,6 +8,7 @@ use super::equation::rows;
 use super::float::{Float, Machine};
 use super::spread::{Spread, first};
 use crate::accel::SharedInstance;
+use crate::accel::cost::Tally;
 use crate::accel::primitive::{Probe, sphere};
 use crate::accel::tree::{SphereBlock, Tree, blocks};
 use crate::accel::wide::{Kind, Node, Reference};
@@ -72,17 +73,19 @@ pub(super) struct Level<'a> {
 
 /// Follows the ray from `start` down; hits go to `best`. True at once where the question is [`Any`] and one is opaque.
 ///
-/// `wide` is `ray`, which is in the tree's space. `stack` has room for this tree and the meshes' trees.
+/// `wide` is `ray`, which is in the tree's space. `stack` has room for this tree and the meshes' trees. `tally` is told
+/// of every test.
 ///
 /// [`Any`]: super::answer::Any
 #[inline(always)]
-pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
+pub(super) fn walk<M: Machine, Q: Question, T: Tally, const OUTER: bool>(
     level: &Level,
     start: Reference,
     ray: &Ray,
     wide: &Spread<M::F8>,
     best: &mut Best,
     stack: &mut [Waiting],
+    tally: &mut T,
 ) -> bool {
     let Level {
         tree, first_number, ..
@@ -95,6 +98,7 @@ pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
                 let Some(node) = tree.nodes.get(next.index()) else {
                     return false;
                 };
+                tally.node();
                 let (enter, mut met) = wide.children(node, least(best.t, ray.t_max));
                 if met != 0 {
                     let nearest = first(met);
@@ -140,6 +144,7 @@ pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
             Kind::Triangles => {
                 let mut leaf = tree.leaf(next);
                 while let Some(block) = leaf.next() {
+                    tally.block(&block.numbers);
                     let end = least(best.t, ray.t_max);
                     if wide.triangles::<Q>(block, first_number, ray, end, best) {
                         return true;
@@ -149,6 +154,7 @@ pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
             Kind::Spheres => {
                 let probe = Probe::new(*ray, tree.extent);
                 for block in &tree.spheres[blocks(next)] {
+                    tally.block(&block.numbers);
                     if spheres::<M, Q>(block, wide, &probe, best) {
                         return true;
                     }
@@ -158,7 +164,7 @@ pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
                 let instance = &tree.instances[next.index() >> 2];
                 if OUTER
                     && (instance.opaque || !Q::ANY)
-                    && inside::<M, Q>(level, instance, ray, best, &mut stack[waiting..])
+                    && inside::<M, Q, T>(level, instance, ray, best, &mut stack[waiting..], tally)
                 {
                     return true;
                 }
@@ -180,12 +186,13 @@ pub(super) fn walk<M: Machine, Q: Question, const OUTER: bool>(
 
 /// Follows the ray through an instance's own tree.
 #[inline(always)]
-fn inside<M: Machine, Q: Question>(
+fn inside<M: Machine, Q: Question, T: Tally>(
     level: &Level,
     instance: &SharedInstance,
     ray: &Ray,
     best: &mut Best,
     stack: &mut [Waiting],
+    tally: &mut T,
 ) -> bool {
     let mesh = &level.meshes[instance.mesh as usize];
     let probe = Probe::new(*ray, level.tree.extent);
@@ -193,7 +200,7 @@ fn inside<M: Machine, Q: Question>(
         return false;
     };
     local.ray.t_min <= best.t
-        && walk::<M, Q, false>(
+        && walk::<M, Q, T, false>(
             &Level {
                 tree: mesh,
                 meshes: &[],
@@ -204,6 +211,7 @@ fn inside<M: Machine, Q: Question>(
             &Spread::new(&local),
             best,
             stack,
+            tally,
         )
 }
 

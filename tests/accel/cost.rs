@@ -1,0 +1,148 @@
+//! What a ray is tested against, counted.
+
+use super::bits;
+use super::layouts::OTHERS;
+use crate::common::scenes::{self, Named};
+use glam::Vec3;
+use luch::accel::{Accel, Isa, Layout, Options, Tests, linear};
+use luch::ray::Ray;
+use luch::scene::Scene;
+
+fn built(scene: &Scene, layout: Layout) -> Accel {
+    let options = Options {
+        layout,
+        ..Options::default()
+    };
+    Accel::build(scene, &options)
+}
+
+fn along_x(from: f32, y: f32, z: f32) -> Ray {
+    Ray::new(Vec3::new(from, y, z), Vec3::X, 0.0, f32::INFINITY)
+}
+
+/// Triangles that stand across the x axis at these places: each fills half of its box, where `y + z <= 1`.
+fn row(places: impl IntoIterator<Item = f32>) -> Scene {
+    let at = |x: f32| [Vec3::ZERO, Vec3::Y, Vec3::Z].map(|p| p + Vec3::X * x);
+    scenes::soup_scene(places.into_iter().map(at).collect()).expect("a scene")
+}
+
+fn counted(accel: &Accel, ray: &Ray) -> (u32, u32) {
+    let Tests { nodes, primitives } = accel.intersect_counted(ray).1;
+    (nodes, primitives)
+}
+
+#[test]
+fn counted_answers_are_those_of_the_oracle() {
+    for Named { name, scene } in scenes::all() {
+        let scene = scene.expect(name);
+        let layouts = [Layout::Wide, Layout::Small].into_iter().chain(OTHERS);
+        for layout in layouts {
+            let accel = built(&scene, layout);
+            let count = if layout == Layout::List { 16 } else { 200 };
+            for ray in scenes::nasty_rays(&scene, count) {
+                let (hit, tests) = accel.intersect_counted(&ray);
+                let at = || format!("{name}, {layout:?}: {ray:?}");
+                assert_eq!(bits(hit), bits(linear::intersect(&scene, &ray)), "{}", at());
+                let (occluded, first) = accel.occluded_counted(&ray);
+                assert_eq!(occluded, linear::occluded(&scene, &ray), "{}", at());
+                assert!(
+                    tests.primitives <= scene.primitive_count(),
+                    "{}",
+                    at()
+                );
+                assert!(
+                    occluded
+                        || layout == Layout::List
+                        || first.nodes >= 1
+                        || accel.statistics().nodes == 0
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn counts_do_not_depend_on_the_kernel() {
+    let scene = row((0..100).map(|i| i as f32));
+    let rays = scenes::nasty_rays(&scene, 200);
+    let mut seen = Vec::new();
+    for isa in Isa::available() {
+        for packets in [false, true] {
+            let options = Options {
+                isa,
+                packets,
+                ..Options::default()
+            };
+            let accel = Accel::build(&scene, &options);
+            let all = rays.iter().map(|ray| {
+                (
+                    accel.intersect_counted(ray).1,
+                    accel.occluded_counted(ray).1,
+                )
+            });
+            seen.push(all.collect::<Vec<_>>());
+        }
+    }
+    assert!(seen.windows(2).all(|pair| pair[0] == pair[1]));
+}
+
+#[test]
+fn two_triangles_take_one_node_and_two_tests() {
+    let scene = row([0.0, 1.0]);
+    let (hits, misses) = (along_x(-1.0, 0.2, 0.2), along_x(-1.0, 2.0, 2.0));
+    for (layout, of_hit, of_miss) in [
+        // A root with one leaf: a block of two triangles.
+        (Layout::Wide, (1, 2), (1, 0)),
+        (Layout::Small, (1, 2), (1, 0)),
+        // Both boxes are flat: a node with a leaf each costs 1 + 1/2 + 1/2 of ... and is no dearer than one leaf of two.
+        (Layout::Bvh2, (0, 2), (0, 2)),
+        (Layout::CwBvh, (1, 2), (1, 0)),
+        (Layout::List, (0, 2), (0, 2)),
+    ] {
+        let accel = built(&scene, layout);
+        assert_eq!(counted(&accel, &hits), of_hit, "{layout:?}");
+        assert_eq!(counted(&accel, &misses), of_miss, "{layout:?}");
+    }
+}
+
+#[test]
+fn a_hundred_triangles_take_the_tests_worked_out_by_hand() {
+    // Twelve heaps of eight, the greatest leaf, and one of four, far apart: thirteen leaves.
+    let heap = |i: u32| (i / 8 * 1000) as f32 + (i % 8) as f32 * 0.01;
+    let scene = row((0..100).map(heap));
+    let accel = built(&scene, Layout::Wide);
+    println!("{:?} {:?}", accel.statistics(), accel.leaf_sizes());
+    for x in 0..13 {
+        let ray = Ray::new(
+            Vec3::new(x as f32 * 1000.0 + 0.035, 0.5, -1.0),
+            Vec3::Z,
+            0.0,
+            f32::INFINITY,
+        );
+        println!("{x} {:?}", counted(&accel, &ray));
+    }
+    println!("all {:?}", counted(&accel, &along_x(-1.0, 0.9, 0.9)));
+    println!("first {:?}", counted(&accel, &along_x(-1.0, 0.2, 0.2)));
+    println!(
+        "last {:?}",
+        counted(
+            &accel,
+            &Ray::new(
+                Vec3::new(20000.0, 0.2, 0.2),
+                Vec3::NEG_X,
+                0.0,
+                f32::INFINITY
+            )
+        )
+    );
+    for layout in OTHERS {
+        let accel = built(&scene, layout);
+        println!(
+            "{layout:?} {:?} {:?}",
+            accel.statistics(),
+            accel.leaf_sizes()
+        );
+        println!("all {:?}", counted(&accel, &along_x(-1.0, 0.9, 0.9)));
+        println!("first {:?}", counted(&accel, &along_x(-1.0, 0.2, 0.2)));
+    }
+}
