@@ -43,7 +43,7 @@ pub struct Layer {
 pub enum Precision {
     /// 16 bits: light.
     Half,
-    /// 32 bits: distances and ids.
+    /// 32 bits: distances, ids and counts.
     Float,
 }
 
@@ -78,6 +78,45 @@ pub const DEPTH: Layer = Layer {
     combine: Combine::Nearest,
     values: Vec::new(),
 };
+
+/// What the rays of a sample (of the camera, behind transparent surfaces, toward lights, off mirrors) were tested against,
+/// each counted on its own way: see [`crate::accel::Tests`].
+pub const COST: Layer = Layer {
+    name: "cost",
+    channels: &["nodes", "primitives"],
+    precision: Precision::Float,
+    unit: "tests a sample",
+    combine: Combine::Mean,
+    values: Vec::new(),
+};
+
+/// Which layers a film has beside the beauty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layers {
+    /// [`DEPTH`].
+    pub depth: bool,
+    /// [`COST`]. Every ray is searched for twice then, so that the times of such a render say nothing.
+    pub cost: bool,
+}
+
+impl Default for Layers {
+    fn default() -> Layers {
+        Layers {
+            depth: true,
+            cost: false,
+        }
+    }
+}
+
+impl Layers {
+    /// The layers, still without values, the beauty first.
+    pub fn list(&self) -> Vec<Layer> {
+        let mut list = vec![BEAUTY];
+        list.extend(self.depth.then_some(DEPTH));
+        list.extend(self.cost.then_some(COST));
+        list
+    }
+}
 
 /// What a render took: rays by kind, and time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

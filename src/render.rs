@@ -6,10 +6,10 @@ pub use settings::{Settings, SettingsError};
 
 use crate::accel::Accel;
 use crate::camera::View;
-use crate::film::{BEAUTY, Combine, DEPTH, Film, Layer};
+use crate::film::{COST, Combine, Film, Layer};
 use crate::ray::Ray;
 use crate::scene::Scene;
-use crate::whitted::{Rules, Sample, Tracer};
+use crate::whitted::{Counts, Rules, Sample, Tracer};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
@@ -66,6 +66,7 @@ pub fn render(scene: &Scene, accel: &Accel, settings: &Settings, progress: &Prog
         rays: Vec::new(),
         samples: Vec::new(),
         pixels: Vec::new(),
+        costs: Vec::new(),
     };
     let tiles = tiles.into_par_iter().enumerate();
     tiles.for_each_init(painter, |painter, (number, tile)| {
@@ -74,7 +75,7 @@ pub fn render(scene: &Scene, accel: &Accel, settings: &Settings, progress: &Prog
         }
         painter.paint(&tile, number % WATCHED == 0);
         let mut film = film.lock().unwrap_or_else(PoisonError::into_inner);
-        tile.put(&painter.pixels, &mut film);
+        tile.put(&painter.pixels, &painter.costs, &mut film);
         film.statistics
             .add_counts(&std::mem::take(&mut painter.tracer.statistics));
         progress.done.fetch_add(1, Relaxed);
@@ -94,7 +95,7 @@ fn empty_film(scene: &Scene, settings: &Settings) -> Film {
     Film {
         width: settings.width,
         height: settings.height,
-        layers: vec![blank(BEAUTY), blank(DEPTH)],
+        layers: settings.layers.list().into_iter().map(blank).collect(),
         background: scene.background(),
         complete: false,
         statistics: Default::default(),
@@ -141,6 +142,8 @@ struct Painter<'a> {
     samples: Vec<Sample>,
     /// The last tile's, row by row.
     pixels: Vec<Sample>,
+    /// The same tile's, if they are wanted: nodes and primitives.
+    costs: Vec<[f32; 2]>,
 }
 
 impl Painter<'_> {
@@ -148,6 +151,10 @@ impl Painter<'_> {
     fn paint(&mut self, tile: &Tile, watched: bool) {
         let start = Instant::now();
         self.tracer.watched = watched;
+        if self.settings.layers.cost {
+            let pixels = tile.width as usize * tile.height as usize;
+            self.tracer.counts = Some(vec![Counts::default(); pixels]);
+        }
         let grid = self.settings.grid;
         for sample in 0..grid.samples() {
             let column = |i| grid.position(i, tile.top, sample).0;
@@ -174,6 +181,11 @@ impl Painter<'_> {
             pixel.color *= share;
             pixel.alpha *= share;
         }
+        let mean = |count: u64| (count as f64 / f64::from(grid.samples())) as f32;
+        self.costs.clear();
+        for count in self.tracer.counts.iter().flatten() {
+            self.costs.push([mean(count.nodes), mean(count.primitives)]);
+        }
         if watched {
             self.tracer.statistics.watched += start.elapsed();
         }
@@ -188,15 +200,23 @@ fn add(pixel: &mut Sample, sample: &Sample) {
 }
 
 impl Tile {
-    /// Writes the tile's pixels into the film.
-    fn put(&self, pixels: &[Sample], film: &mut Film) {
+    /// Writes the tile's pixels into the film, and what they cost where the film has a layer for it.
+    fn put(&self, pixels: &[Sample], costs: &[[f32; 2]], film: &mut Film) {
         let (left, width) = (self.left as usize, self.width as usize);
         for layer in &mut film.layers {
             let channels = layer.channels.len();
             let rows = layer
                 .values
                 .chunks_exact_mut(film.width as usize * channels);
-            let rows = rows.skip(self.top as usize).zip(pixels.chunks_exact(width));
+            let rows = rows.skip(self.top as usize);
+            if layer.name == COST.name {
+                for (row, costs) in rows.zip(costs.chunks_exact(width)) {
+                    let row = &mut row[left * channels..(left + width) * channels];
+                    row.copy_from_slice(costs.as_flattened());
+                }
+                continue;
+            }
+            let rows = rows.zip(pixels.chunks_exact(width));
             for (row, pixels) in rows {
                 let row = &mut row[left * channels..(left + width) * channels];
                 for (values, pixel) in row.chunks_exact_mut(channels).zip(pixels) {

@@ -6,8 +6,11 @@
 //! is in its batch.
 
 mod batch;
+mod count;
 mod lanes;
 mod transparent;
+
+pub use count::Counts;
 
 use crate::accel::Accel;
 use crate::camera::View;
@@ -58,6 +61,8 @@ pub struct Tracer<'a> {
     pub statistics: Statistics,
     /// Whether the time that search takes is measured.
     pub watched: bool,
+    /// What the rays of each sample of a batch were tested against, batches added, if somebody wants to know.
+    pub counts: Option<Vec<Counts>>,
     paths: Paths,
     /// What goes on from where `paths` end.
     further: Paths,
@@ -77,6 +82,7 @@ impl<'a> Tracer<'a> {
             rules,
             statistics: Statistics::default(),
             watched: false,
+            counts: None,
             paths: Paths::default(),
             further: Paths::default(),
             hits: Vec::new(),
@@ -124,6 +130,7 @@ impl<'a> Tracer<'a> {
         let start = self.watched.then(Instant::now);
         self.accel.intersect_all(&self.paths.rays, &mut self.hits);
         self.statistics.search += since(start);
+        self.count_paths();
         let background = self.scene.background();
         self.arrivals.clear();
         let paths = self.paths.rays.iter().zip(&self.paths.paths);
@@ -257,10 +264,11 @@ impl<'a> Tracer<'a> {
     /// Adds what shadow rays promise where nothing stands in their way.
     #[inline(never)]
     fn add_unless_occluded(&mut self, kind: usize, samples: &mut [Sample]) {
-        let shadow_rays = &mut self.shadow_rays[kind];
-        if shadow_rays.rays.is_empty() {
+        if self.shadow_rays[kind].rays.is_empty() {
             return;
         }
+        self.count_shadow_rays(kind);
+        let shadow_rays = &mut self.shadow_rays[kind];
         let start = self.watched.then(Instant::now);
         self.accel
             .occluded_all(&shadow_rays.rays, &mut self.occluded);
@@ -278,7 +286,7 @@ impl<'a> Tracer<'a> {
             }
             let mut light = promised.light;
             if transparent {
-                let (share, lost) = transmitted(self.scene, self.accel, ray);
+                let (share, lost) = transmitted(self.scene, |ray| self.accel.intersect(ray), ray);
                 self.statistics.lost_in_layers += u64::from(lost);
                 light *= share;
             }

@@ -15,7 +15,7 @@ use luch::scene::{Object, Scene, SceneDescription};
 use luch::shade::Shading;
 
 /// Spheres, a mirror, a knot and a floor, scaled and then moved.
-fn description(scale: f32, offset: f32) -> SceneDescription {
+pub(crate) fn description(scale: f32, offset: f32) -> SceneDescription {
     let place = |p: Vec3| p * scale + offset;
     let camera = Camera::looking_at(
         place(Vec3::new(3.0, 2.5, -6.0)),

@@ -7,6 +7,7 @@ mod cli;
 mod common;
 mod golden;
 mod invariance;
+mod layers;
 mod load_gltf;
 mod load_obj;
 mod load_scene_file;

@@ -3,8 +3,7 @@
 //! Counted for one ray on its own way, whatever else is in its batch. Packets share such tests, so that what is counted
 //! depends on no batch, instruction set or tile, and is not what a batch took.
 
-use super::kernel::Best;
-use super::kernel::{Any, Closest};
+use super::kernel::{Any, Best, Closest};
 use super::tree::Number;
 use super::{Accel, SCRATCH, kernel};
 use crate::geometry::Hit;
@@ -45,22 +44,15 @@ impl Tally for Uncounted {
 
 impl Tally for Tests {
     fn node(&mut self) {
-        self.nodes += 1;
+        self.nodes = self.nodes.saturating_add(1);
     }
 
     fn block(&mut self, numbers: &[Number]) {
-        self.primitives += Number::count(numbers);
+        self.primitives = self.primitives.saturating_add(Number::count(numbers));
     }
 
     fn primitive(&mut self) {
-        self.primitives += 1;
-    }
-}
-
-impl std::ops::AddAssign for Tests {
-    fn add_assign(&mut self, other: Tests) {
-        self.nodes += other.nodes;
-        self.primitives += other.primitives;
+        self.primitives = self.primitives.saturating_add(1);
     }
 }
 

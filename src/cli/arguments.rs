@@ -5,6 +5,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
 use luch::accel::{Builder, Preset};
+use luch::film::Layers;
 use luch::output::{BitDepth, Display, Format};
 use luch::shade::Shading;
 use std::num::NonZeroU8;
@@ -134,6 +135,11 @@ pub(super) struct RenderArguments {
     /// Stops of exposure, PNG only: each doubles the light [default: 0, or what a model's own lights need]
     #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = values::stops)]
     pub(super) exposure: Option<f32>,
+
+    /// What an EXR holds, with commas between: beauty; Z, the depth, or data, all such layers; cost, the nodes and
+    /// primitives that the rays of each pixel were tested against [default: beauty,data]
+    #[arg(long, value_name = "NAMES", value_parser = values::layers)]
+    pub(super) layers: Option<Layers>,
 
     /// Bits a channel of a PNG
     #[arg(long, value_enum, value_name = "BITS", default_value = "8")]

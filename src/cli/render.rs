@@ -101,6 +101,7 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
         arguments.max_depth.or(picture.max_depth).unwrap_or(5),
         shading.unwrap_or_default(),
     )
+    .and_then(|settings| settings.with_layers(arguments.layers.unwrap_or_default()))
     .map_err(|error| {
         let asked = [
             asked_width,

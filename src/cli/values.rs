@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glam::Vec3;
 use luch::color::{Rgb, srgb_to_linear};
+use luch::film::Layers;
 use luch::output::Display;
 use luch::scene::{Background, Shown};
 use std::num::NonZeroU8;
@@ -89,6 +90,32 @@ pub(super) fn leaf_size(text: &str) -> Result<NonZeroU8, String> {
         .ok_or_else(|| "expected a whole number from 1 to 16".to_owned())
 }
 
+/// The layers of a film, by their names.
+pub(super) fn layers(text: &str) -> Result<Layers, String> {
+    let mut beauty = false;
+    let mut layers = Layers {
+        depth: false,
+        cost: false,
+    };
+    for name in text.split(',') {
+        match name.trim() {
+            "beauty" => beauty = true,
+            "data" | "Z" => layers.depth = true,
+            "cost" => layers.cost = true,
+            other => {
+                return Err(format!(
+                    "there is no layer {other:?}; known are beauty, data, Z and cost, with commas between"
+                ));
+            }
+        }
+    }
+    if beauty {
+        Ok(layers)
+    } else {
+        Err(format!("beauty is in every picture; ask for beauty,{text}"))
+    }
+}
+
 /// A field of view in degrees.
 pub(super) fn field_of_view(text: &str) -> Result<f64, String> {
     let angle = text
@@ -170,6 +197,26 @@ mod tests {
         let expected = "expected a whole number, at least 0";
         assert_eq!(samples("-1"), Err(expected.into()));
         assert!(leaf_size("1").is_ok() && leaf_size("0").is_err() && leaf_size("17").is_err());
+    }
+
+    #[test]
+    fn layers_are_known_names_and_the_beauty_is_one_of_them() {
+        let asked = |depth, cost| Ok(Layers { depth, cost });
+        assert_eq!(layers("beauty"), asked(false, false));
+        assert_eq!(layers("beauty, cost"), asked(false, true));
+        assert_eq!(layers("cost,Z,beauty"), asked(true, true));
+        assert_eq!(layers("beauty,data"), Ok(Layers::default()));
+        assert_eq!(
+            layers("cost"),
+            Err("beauty is in every picture; ask for beauty,cost".into())
+        );
+        assert_eq!(
+            layers("beauty,normals"),
+            Err("there is no layer \"normals\"; known are beauty, data, Z and cost, with commas between".into())
+        );
+        for wrong in ["", "beauty,", "Beauty", "beauty;cost"] {
+            assert!(layers(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

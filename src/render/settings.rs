@@ -1,6 +1,6 @@
 //! What a picture should be like, checked once.
 
-use crate::film::{BEAUTY, DEPTH};
+use crate::film::Layers;
 use crate::sampling::Grid;
 use crate::shade::Shading;
 
@@ -13,6 +13,7 @@ pub struct Settings {
     pub(super) max_depth: u32,
     pub(super) shading: Shading,
     pub(super) tile_side: u32,
+    pub(super) layers: Layers,
 }
 
 /// What is wrong with settings.
@@ -85,17 +86,8 @@ impl Settings {
         if width == 0 || height == 0 {
             return Err(SettingsError::NoPixels { width, height });
         }
-        let channels = (BEAUTY.channels.len() + DEPTH.channels.len()) as u64;
-        let bytes = u64::from(width)
-            .saturating_mul(u64::from(height))
-            .saturating_mul(channels * 4);
-        if bytes > MAX_FILM_BYTES {
-            return Err(SettingsError::TooLarge {
-                width,
-                height,
-                bytes,
-            });
-        }
+        let layers = Layers::default();
+        check_bytes(width, height, &layers)?;
         if max_depth > MAX_DEPTH {
             return Err(SettingsError::TooDeep { max_depth });
         }
@@ -115,7 +107,18 @@ impl Settings {
             max_depth,
             shading,
             tile_side: TILE_SIDE,
+            layers,
         })
+    }
+
+    /// The same picture with these layers.
+    ///
+    /// # Errors
+    ///
+    /// More than 4 GiB of pixels.
+    pub fn with_layers(self, layers: Layers) -> Result<Settings, SettingsError> {
+        check_bytes(self.width, self.height, &layers)?;
+        Ok(Settings { layers, ..self })
     }
 
     /// The same picture, rendered in tiles of `side` pixels (at least 1): no pixel depends on it.
@@ -142,6 +145,25 @@ impl Settings {
     }
 }
 
+/// Finds whether a film would take too much memory.
+fn check_bytes(width: u32, height: u32, layers: &Layers) -> Result<(), SettingsError> {
+    let channels = layers
+        .list()
+        .into_iter()
+        .map(|layer| layer.channels.len() as u64);
+    let bytes = u64::from(width)
+        .saturating_mul(u64::from(height))
+        .saturating_mul(channels.sum::<u64>() * 4);
+    if bytes > MAX_FILM_BYTES {
+        return Err(SettingsError::TooLarge {
+            width,
+            height,
+            bytes,
+        });
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -165,6 +187,20 @@ mod tests {
             )
         );
         assert!(asked(u32::MAX, u32::MAX, 1).is_err());
+        // 20 bytes a pixel fit, 28 do not.
+        let settings = Settings::new(14_000, 14_000, 1, 5, Shading::BlinnPhong);
+        let layers = Layers {
+            cost: true,
+            ..Layers::default()
+        };
+        let refused = settings.and_then(|settings| settings.with_layers(layers));
+        assert!(matches!(
+            refused,
+            Err(SettingsError::TooLarge {
+                bytes: 5_488_000_000,
+                ..
+            })
+        ));
     }
 
     #[test]

@@ -147,21 +147,21 @@ fn leaf_sizes_add_up_to_leaves_and_to_primitives() {
             let held: u64 = (1..).zip(&sizes).map(|(size, count)| size * count).sum();
             let built = accel.statistics();
             assert_eq!(leaves, built.leaves as u64, "{name}, {layout:?}");
-            let shared: usize = scene.meshes().iter().map(|m| m.triangles.len()).sum();
-            let is_shared = scene.instances().iter().any(|i| i.space.is_some());
-            let in_world = match is_shared {
-                true => scene
-                    .instances()
-                    .iter()
-                    .map(|i| if i.space.is_some() { 1 } else { 20_480 })
-                    .sum(),
-                false => {
-                    let each = scene.instances().iter();
-                    each.map(|i| scene.mesh(i.mesh).triangles.len())
-                        .sum::<usize>()
-                }
+            let triangles = |mesh: u32| scene.mesh(mesh).triangles.len();
+            let instances = scene.instances();
+            let in_world = instances.iter().map(|i| match i.space {
+                Some(_) => 1,
+                None => triangles(i.mesh),
+            });
+            let shared = |mesh: &u32| {
+                let mut sharing = instances.iter().filter(|i| i.space.is_some());
+                sharing.any(|i| i.mesh == *mesh)
             };
-            let expected = scene.spheres().len() + in_world + if is_shared { shared } else { 0 };
+            let in_meshes = (0..scene.meshes().len() as u32)
+                .filter(shared)
+                .map(triangles);
+            let expected =
+                scene.spheres().len() + in_world.sum::<usize>() + in_meshes.sum::<usize>();
             assert_eq!(held, expected as u64, "{name}, {layout:?}: {sizes:?}");
         }
     }
@@ -177,7 +177,7 @@ fn surface_area_cost_is_that_of_its_definition() {
     };
     let scene = scenes::soup_scene([square(0.0), square(10.0)].concat()).expect("a scene");
     for layout in [Layout::Wide, Layout::Bvh2] {
-        let accel = built(&scene, layout, None);
+        let accel = built(&scene, layout, Some(2));
         let cost = f64::from(accel.statistics().sah_cost);
         assert_eq!(accel.leaf_sizes(), [0, 2], "{layout:?}");
         assert!(

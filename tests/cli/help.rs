@@ -22,6 +22,7 @@ fn help_names_every_option_and_has_examples() {
         "--threads",
         "--display",
         "--exposure",
+        "--layers",
         "--bit-depth",
         "--background",
         "--bvh",

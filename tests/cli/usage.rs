@@ -125,6 +125,16 @@ fn a_bad_value_is_told_what_is_expected() {
             "expected three finite numbers with commas between, as in 1,2,0.5",
         ),
         (
+            "layers <NAMES>",
+            "cost",
+            "beauty is in every picture; ask for beauty,cost",
+        ),
+        (
+            "layers <NAMES>",
+            "beauty,fog",
+            "there is no layer \"fog\"; known are beauty, data, Z and cost, with commas between",
+        ),
+        (
             "background <#RRGGBB|transparent>",
             "grey",
             "expected a colour of six hex digits, as in '#808080', or transparent",

@@ -2,7 +2,7 @@
 
 use super::{encoded, film};
 use exr::prelude::{AttributeValue, FlatSamples, ReadChannels, ReadLayers, Text, f16, read};
-use luch::film::{FAR_AWAY, Film};
+use luch::film::{COST, FAR_AWAY, Film, Layer};
 use luch::output::{Format, Options};
 use luch::scene::Shown;
 use std::io;
@@ -57,6 +57,21 @@ fn an_exr_keeps_light_as_halves_and_depth_as_floats() {
         let depth = vec![1.0, 2.0, 3.0, FAR_AWAY];
         assert_eq!(exr_channel(&image, "Z"), (depth, true));
     }
+}
+
+#[test]
+fn a_layer_with_a_name_is_read_back_under_it() {
+    let mut film = film(2, Shown::Never, &[[1.0; 4], [0.5; 4]]);
+    film.layers.push(Layer {
+        // More than 16 bits could tell apart.
+        values: vec![1.0, 70_001.0, 3.25, 0.0],
+        ..COST
+    });
+    let image = exr(&film, None);
+    assert_eq!(exr_channel(&image, "cost.nodes"), (vec![1.0, 3.25], true));
+    let primitives = (vec![70_001.0, 0.0], true);
+    assert_eq!(exr_channel(&image, "cost.primitives"), primitives);
+    assert_eq!(exr_channel(&image, "Z").0.len(), 2);
 }
 
 #[test]
