@@ -8,6 +8,7 @@
 mod batch;
 mod count;
 mod lanes;
+mod onward;
 mod transparent;
 
 pub use count::Counts;
@@ -21,7 +22,7 @@ use crate::light::{Illumination, Lamp};
 use crate::ray::Ray;
 use crate::scene::{Place, Recent, Scene, Shown};
 use crate::shade::{Shading, flat, mirror};
-use batch::{Arrival, Arrivals, Path, Paths, Promised, ShadowRays, ray_to};
+use batch::{Arrivals, Paths, Promised, ShadowRays, ray_to};
 use glam::Vec3;
 use lanes::{Shone, WIDTH};
 use std::mem::{swap, take};
@@ -293,68 +294,6 @@ impl<'a> Tracer<'a> {
             samples[promised.sample as usize].color += light;
         }
         shadow_rays.clear();
-    }
-
-    /// Sends on the mirror ray, as long as it still matters.
-    fn reflect(&mut self, arrivals: &Arrivals, index: usize) {
-        let arrival = &arrivals.list[index];
-        let surface = &arrivals.reflectances[arrival.reflectance as usize];
-        let energy = arrival.weight * surface.reflectivity;
-        if !mirror::matters(energy) || self.rules.shading == Shading::Flat {
-            return;
-        }
-        let path = self.paths.paths[arrival.path as usize];
-        if path.bounces >= self.rules.max_depth {
-            return;
-        }
-        let Place { point, normal, .. } = arrivals.place(index);
-        let d = self.paths.rays[arrival.path as usize].direction;
-        let r = mirror::direction(d, normal);
-        // A bent normal can send the ray into the surface: then the surface's own normal says where the mirror is.
-        let r = if r.dot(point.normal) > 0.0 {
-            r
-        } else {
-            mirror::direction(d, point.normal)
-        };
-        let ray = Ray::leaving(
-            point.position,
-            point.normal,
-            point.error,
-            r.normalize_or(r),
-            f32::INFINITY,
-        );
-        let path = Path {
-            energy,
-            bounces: path.bounces + 1,
-            ..path
-        };
-        self.further.push(ray, path);
-        self.statistics.mirror_rays += 1;
-    }
-
-    /// Sends on what the surface lets through, in the direction it came.
-    fn pass_through(&mut self, arrival: &Arrival) {
-        if arrival.coverage == 1.0 {
-            return;
-        }
-        let index = arrival.path as usize;
-        let (path, ray) = (self.paths.paths[index], &self.paths.rays[index]);
-        let energy = path.energy * (1.0 - arrival.coverage);
-        let Some(hit) = &self.hits[index] else { return };
-        if !mirror::matters(energy) {
-            return;
-        }
-        if path.layers == MAX_LAYERS {
-            self.statistics.lost_in_layers += 1;
-            return;
-        }
-        let path = Path {
-            energy,
-            layers: path.layers + 1,
-            ..path
-        };
-        self.further.push(ray.beyond(hit.t, hit.primitive), path);
-        self.statistics.transparent_rays += 1;
     }
 }
 
