@@ -27,8 +27,6 @@ mod measure;
 mod record;
 #[path = "rays/scenes.rs"]
 mod scenes;
-#[path = "rays/sets.rs"]
-mod sets;
 #[path = "rays/table.rs"]
 mod table;
 
@@ -36,9 +34,9 @@ use arguments::Arguments;
 use embree::Embree;
 use engines::{Arena, Engine, Round, Threads};
 use luch::accel::Accel;
+use luch::study::sets::{self, Kind};
 use measure::{Difference, race};
 use record::Results;
-use sets::Kind;
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
@@ -114,7 +112,7 @@ fn race_in(
     let accel = Accel::build(&scene, &engines::options());
     let arena = Arena::new(&scene, &accel, embree)?;
     let rounding = 1e-5 * scene.bounds().extent();
-    let sets = sets::make(&scene, &accel, scenes::light(&scene), arguments.size());
+    let sets = sets::make(&scene, &accel, sets::light(&scene), arguments.size());
     for (kind, set) in Kind::ALL.into_iter().zip(&sets) {
         let round = Round::new(kind, set, arena.has_embree());
         let few = scene.primitive_count() <= MOST_FOR_LINEAR;

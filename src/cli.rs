@@ -7,6 +7,7 @@ mod outputs;
 mod print;
 mod progress;
 mod render;
+mod study;
 mod summary;
 mod values;
 
@@ -63,12 +64,22 @@ fn obey(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Render(arguments) => render::run(arguments),
         Command::Info(arguments) => info::run(arguments),
+        Command::Study(arguments) => study::run(arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Arguments::command(), "luch", &mut script);
             print::to_stdout(&script)
         }
     }
+}
+
+/// The command as it was given, for what is written.
+fn command_line() -> String {
+    let words = std::env::args_os()
+        .skip(1)
+        .map(|word| word.to_string_lossy().into_owned());
+    let command: Vec<String> = std::iter::once("luch".to_owned()).chain(words).collect();
+    command.join(" ")
 }
 
 /// An error's one line, and with `verbose` its causes, of as many lines as they like.

@@ -6,16 +6,18 @@ mod icosphere;
 mod interior;
 mod knot;
 mod random;
+mod scattered;
 mod sphereflake;
 mod terrain;
 
 pub use grid::grid;
-pub use hair::hair;
+pub use hair::{hair, hair_of_width};
 pub use icosphere::icosphere;
 pub use interior::{Decoration, interior};
 pub use knot::knot;
 pub use random::Random;
-pub use sphereflake::sphereflake;
+pub use scattered::{scattered_spheres, scattered_triangles};
+pub use sphereflake::{sphereflake, sphereflake_of};
 pub use terrain::terrain;
 
 use crate::camera::Camera;

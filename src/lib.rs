@@ -64,3 +64,6 @@ pub mod whitted;
 // The doors.
 pub mod load;
 pub mod output;
+
+// The roof.
+pub mod study;

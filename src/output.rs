@@ -9,6 +9,7 @@ mod transfer;
 
 pub use destination::Destination;
 pub use display::Display;
+pub use png::rgb_png;
 
 use crate::Error;
 use crate::film::{BEAUTY, Film};

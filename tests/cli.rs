@@ -10,6 +10,7 @@ mod outputs;
 mod pipes;
 mod said;
 mod scenes;
+mod study;
 mod usage;
 
 use serde_json::Value;

@@ -13,3 +13,4 @@ mod load_obj;
 mod load_scene_file;
 mod models;
 mod output;
+mod study;

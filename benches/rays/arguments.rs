@@ -2,9 +2,9 @@
 
 use super::engines::Engine;
 use super::scenes;
-use super::sets::Kind;
 use clap::Parser;
 use clap::error::ErrorKind;
+use luch::study::sets::Kind;
 use std::process::exit;
 
 /// Rays a second of luch and, where LUCH_EMBREE names a library of Embree 4, of Embree, on the same rays.

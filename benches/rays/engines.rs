@@ -3,11 +3,11 @@
 use super::embree::{Build, Embree, EmbreeScene, Quality};
 use super::embree_layouts::{Nearest, RtcRay, RtcRay16, RtcRayHit, RtcRayHit16};
 use super::scenes;
-use super::sets::{Kind, RaySet};
 use luch::accel::{Accel, Isa, Options, linear};
 use luch::geometry::Hit;
 use luch::ray::Ray;
 use luch::scene::Scene;
+use luch::study::sets::{self, Kind, RaySet};
 use rayon::prelude::*;
 use std::hint::black_box;
 use std::time::Instant;
@@ -214,11 +214,7 @@ impl<'a> Arena<'a> {
         let any = round.kind.is_any_hit();
         match engine {
             Engine::Luch => share(&round.batches, 64, threads, |batches| {
-                if any {
-                    luch_any(self.accel, batches);
-                } else {
-                    luch_nearest(self.accel, batches);
-                }
+                sets::trace(self.accel, round.kind, batches);
             }),
             Engine::Linear => share(&round.few, 8, threads, |rays| {
                 rays.iter().for_each(|ray| {
@@ -308,27 +304,7 @@ impl<'a> Arena<'a> {
     }
 }
 
-/// Apart from `luch_any` and never inlined, so that a profiler can be told to count nothing else.
-#[inline(never)]
-fn luch_nearest(accel: &Accel, batches: &[&[Ray]]) {
-    let mut hits = Vec::new();
-    for batch in batches {
-        accel.intersect_all(batch, &mut hits);
-        black_box(&hits);
-    }
-}
-
-/// See `luch_nearest`.
-#[inline(never)]
-fn luch_any(accel: &Accel, batches: &[&[Ray]]) {
-    let mut occluded = Vec::new();
-    for batch in batches {
-        accel.occluded_all(batch, &mut occluded);
-        black_box(&occluded);
-    }
-}
-
-/// See `luch_nearest`. The answers stay in Embree's structures, where a renderer reads them.
+/// Never inlined, like [`sets::trace`], for profilers. The answers stay in Embree's structures, where a renderer reads them.
 #[inline(never)]
 fn embree_one(scene: &EmbreeScene, rays: &[RtcRay], any: bool) {
     let mut nearest = RtcRayHit::default();

@@ -4,11 +4,11 @@ use super::arguments::Arguments;
 use super::engines::{Arena, Engine, Round, Threads, options};
 use super::measure::median;
 use super::scenes;
-use super::sets::{self, Kind};
 use luch::accel::Accel;
 use luch::generate::Decoration;
 use luch::render::{Progress, Settings, render};
 use luch::shade::Shading;
+use luch::study::sets::{self, Kind};
 use rayon::ThreadPoolBuilder;
 
 /// A frame on one thread.
@@ -42,7 +42,7 @@ pub(crate) fn of_interior(arguments: &Arguments) -> Result<Vec<FrameRow>, String
         let rays = [counts.camera_rays, counts.shadow_rays, counts.mirror_rays];
 
         let arena = Arena::new(&scene, &accel, None)?;
-        let sets = sets::make(&scene, &accel, scenes::light(&scene), arguments.size());
+        let sets = sets::make(&scene, &accel, sets::light(&scene), arguments.size());
         let kinds = [Kind::Primary, Kind::Shadow, Kind::Mirror];
         let bare = kinds.map(|kind| Round::new(kind, &sets[kind as usize], false));
         let bare_seconds = || -> f64 {

@@ -4,8 +4,8 @@ use super::arguments::Arguments;
 use super::embree::Embree;
 use super::engines::{Arena, Engine, Round, Threads, options};
 use super::scenes;
-use super::sets::{self, Kind};
 use luch::accel::Accel;
+use luch::study::sets::{self, Kind};
 
 /// Traces a set of about `arguments.rays` rays `arguments.rounds` times.
 pub(crate) fn run(
@@ -22,7 +22,7 @@ pub(crate) fn run(
     // Whole tiles of a picture twice as wide as high.
     let height = (f64::from(arguments.rays) / 2.0).sqrt() as u32 / 8 * 8;
     let size = [height.max(8) * 2, height.max(8)];
-    let sets = sets::make(&scene, &accel, scenes::light(&scene), size);
+    let sets = sets::make(&scene, &accel, sets::light(&scene), size);
     let round = Round::new(kind, &sets[kind as usize], arena.has_embree());
     for _ in 0..arguments.rounds {
         arena

@@ -1,9 +1,8 @@
 //! The scenes of the table, by name, and any model file.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use luch::camera::Camera;
 use luch::generate::{self, Decoration};
-use luch::light::LightKind;
 use luch::load::{self, CameraChoice, Viewpoint};
 use luch::mesh::Mesh;
 use luch::scene::Scene;
@@ -127,20 +126,6 @@ fn skin(of_cube: [f32; 3]) -> Vec3 {
     };
     let height = 0.28 * wave(2.5, 0.4) + 0.12 * wave(6.0, 1.0) + 0.04 * wave(19.0, 2.0);
     p * (0.9 + height + 0.02 * wave(47.0, 3.0))
-}
-
-/// The point light whose shadows are asked for: the scene's first with a place, or else one above and beside the camera.
-pub(crate) fn light(scene: &Scene) -> Vec3 {
-    let placed = scene.lights().iter().find_map(|light| match light.kind {
-        LightKind::Point { position } | LightKind::Spot { position, .. } => Some(position),
-        LightKind::Directional { .. } => None,
-    });
-    placed.unwrap_or_else(|| {
-        let camera = scene.camera();
-        let distance = (camera.look_at - camera.position).length();
-        let beside = DVec3::new(0.3, 0.7, 0.2) * distance;
-        (camera.position + beside).as_vec3()
-    })
 }
 
 /// Every triangle in world space, in the order of the scene's primitives; `None` where there are primitives of other

@@ -2,7 +2,7 @@
 
 use super::engines::{Engine, Threads};
 use super::measure::{Difference, Measured};
-use super::sets::Kind;
+use luch::study::sets::Kind;
 use serde_json::{Value, json};
 
 /// All that was measured of one kind of rays in one scene.

@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+use super::study::StudyArguments;
 use super::values::{self, BackgroundValue, Size, whole_number};
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -17,7 +18,8 @@ Examples:
   luch render model.glb                  a framed, lit picture, into model.png
   luch render model.glb -o a.png -o a.exr --size 1920x1080 --samples 16
   luch render scene.toml -o - | viewer   a PNG to another program
-  luch info model.glb                    what is in a file, and what luch makes of it";
+  luch info model.glb                    what is in a file, and what luch makes of it
+  luch study bvh model.glb --quick       which search tree is the best for a model, into luch-study-bvh/report.html";
 
 /// A ray tracer: a glTF, OBJ or scene file in, a PNG or EXR out.
 #[derive(Debug, Parser)]
@@ -33,6 +35,8 @@ pub(super) enum Command {
     Render(Box<RenderArguments>),
     /// Tell what is in a file, and what luch makes of it
     Info(InfoArguments),
+    /// Measure how the search tree affects render time, and write a report
+    Study(StudyArguments),
     /// Print completions for a shell
     #[command(
         after_help = "Example:\n  luch completions bash > ~/.local/share/bash-completion/completions/luch"
@@ -49,6 +53,7 @@ impl Command {
         match self {
             Command::Render(arguments) => arguments.verbose,
             Command::Info(arguments) => arguments.verbose,
+            Command::Study(arguments) => arguments.is_verbose(),
             Command::Completions { .. } => false,
         }
     }

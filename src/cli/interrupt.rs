@@ -2,11 +2,12 @@
 
 use luch::Error;
 use luch::output::Destination;
+use luch::study::Watch;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The exit code after an interrupt, 128 and the number of SIGINT.
-const INTERRUPTED: i32 = 130;
+pub(super) const INTERRUPTED: i32 = 130;
 
 /// Files to remove when the program is interrupted.
 #[derive(Clone, Default)]
@@ -28,6 +29,16 @@ impl Interrupt {
             std::process::exit(INTERRUPTED);
         });
         interrupt
+    }
+
+    /// From now on an interrupt asks a study to stop, and a second one ends the program.
+    pub(super) fn watch_once(study: Arc<Watch>) {
+        let _ = ctrlc::set_handler(move || {
+            if study.is_cancelled() {
+                std::process::exit(INTERRUPTED);
+            }
+            study.cancel();
+        });
     }
 
     /// Claims a destination, whose temporary file an interrupt then removes.

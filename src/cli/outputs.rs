@@ -3,14 +3,18 @@
 use super::arguments::{RenderArguments, is_stdout};
 use super::interrupt::Interrupt;
 use super::{Failure, print};
-use luch::film::Film;
+use luch::Error;
+use luch::film::{COST, Film};
 use luch::output::{self, Destination, Format, Options};
+use luch::study::heat_maps;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every place that the picture goes to.
 pub(super) struct Outputs {
     files: Vec<Destination>,
+    /// Beside each PNG a heat map of each channel of the cost layer, where that is asked for.
+    heat_maps: Vec<(usize, Destination)>,
     /// What goes to standard output, if anything does.
     to_stdout: Option<Format>,
 }
@@ -39,8 +43,18 @@ impl Outputs {
             given => given,
         };
         let mut files = Vec::new();
+        let mut heat_maps = Vec::new();
+        let cost = arguments.layers.is_some_and(|layers| layers.cost);
         for path in paths.iter().filter(|path| !is_stdout(path)) {
-            files.push(interrupt.claim(path).map_err(Failure::output)?);
+            let file = interrupt.claim(path).map_err(Failure::output)?;
+            if cost && file.format() == Format::Png {
+                for (channel, name) in COST.channels.iter().enumerate() {
+                    let beside = path.with_extension(format!("{name}.png"));
+                    let beside = interrupt.claim(&beside).map_err(Failure::output)?;
+                    heat_maps.push((channel, beside));
+                }
+            }
+            files.push(file);
         }
         let places: Vec<PathBuf> = paths.iter().map(|path| place(path)).collect();
         match (1..paths.len()).find(|&i| places[..i].contains(&places[i])) {
@@ -48,7 +62,11 @@ impl Outputs {
                 "{}: is given twice as an output",
                 print::path(&paths[twice])
             ))),
-            None => Ok(Outputs { files, to_stdout }),
+            None => Ok(Outputs {
+                files,
+                heat_maps,
+                to_stdout,
+            }),
         }
     }
 
@@ -71,6 +89,16 @@ impl Outputs {
         for destination in self.files {
             let path = destination.path().to_owned();
             destination.write(film, options).map_err(Failure::output)?;
+            written.push(path);
+        }
+        for (channel, destination) in self.heat_maps {
+            let path = destination.path().to_owned();
+            let Some(png) = heat_maps::of_cost(film, channel) else {
+                continue;
+            };
+            let png = png.map_err(Error::io(&path, "draw"));
+            let put = png.and_then(|png| destination.write_bytes(&png));
+            put.map_err(Failure::output)?;
             written.push(path);
         }
         if let Some(format) = self.to_stdout {

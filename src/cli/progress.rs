@@ -1,7 +1,6 @@
 //! Progress on standard error: a bar on a terminal, plain lines on a pipe.
 
 use indicatif::{ProgressBar, ProgressStyle};
-use luch::render::Progress;
 use std::io::{IsTerminal, Write, stderr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
@@ -10,8 +9,22 @@ use std::time::Duration;
 /// How often progress is looked at.
 const INTERVAL: Duration = Duration::from_millis(80);
 
+/// How far some work is.
+pub(super) struct State {
+    /// What is under way.
+    pub(super) doing: String,
+    /// 0..1.
+    pub(super) share: f64,
+    /// What the work itself expects; reckoned from the share where it is `None`.
+    pub(super) left: Option<Duration>,
+}
+
 /// Does `work` while its progress is shown, unless `quiet`.
-pub(super) fn shown<T>(quiet: bool, progress: &Progress, work: impl FnOnce() -> T) -> T {
+pub(super) fn shown<T>(
+    quiet: bool,
+    state: &(dyn Fn() -> State + Sync),
+    work: impl FnOnce() -> T,
+) -> T {
     if quiet {
         return work();
     }
@@ -19,9 +32,9 @@ pub(super) fn shown<T>(quiet: bool, progress: &Progress, work: impl FnOnce() -> 
         let (finished, wait) = channel::<()>();
         let watcher = scope.spawn(move || {
             if stderr().is_terminal() {
-                bar(progress, &wait)
+                bar(state, &wait)
             } else {
-                lines(progress, &wait)
+                lines(state, &wait)
             }
         });
         let result = work();
@@ -32,23 +45,31 @@ pub(super) fn shown<T>(quiet: bool, progress: &Progress, work: impl FnOnce() -> 
     })
 }
 
-fn bar(progress: &Progress, wait: &Receiver<()>) {
+fn bar(state: &dyn Fn() -> State, wait: &Receiver<()>) {
     let bar = ProgressBar::new(1000);
-    if let Ok(style) =
-        ProgressStyle::with_template("rendering [{bar:40}] {percent:>3}%  {eta} left")
-    {
-        bar.set_style(style.progress_chars("=> "));
+    let style = |template| ProgressStyle::with_template(template).map(|s| s.progress_chars("=> "));
+    let template = match state().left {
+        None => "{msg} [{bar:40}] {percent:>3}%  {eta} left",
+        Some(_) => "[{bar:30}] {percent:>3}%  {prefix} left  {msg}",
+    };
+    if let Ok(style) = style(template) {
+        bar.set_style(style);
     }
     while wait.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
-        bar.set_position((progress.share() * 1000.0) as u64);
+        let State { doing, share, left } = state();
+        bar.set_position((share * 1000.0) as u64);
+        bar.set_message(doing);
+        if let Some(left) = left {
+            bar.set_prefix(format!("{:>3} s", left.as_secs()));
+        }
     }
     bar.finish_and_clear();
 }
 
-fn lines(progress: &Progress, wait: &Receiver<()>) {
+fn lines(state: &dyn Fn() -> State, wait: &Receiver<()>) {
     let mut said = None;
     let mut say = || {
-        let percent = (progress.share() * 100.0) as u32;
+        let percent = (state().share * 100.0) as u32;
         if said != Some(percent) {
             // A pipe that nobody reads any more is no reason to stop.
             let _ = writeln!(stderr(), "Progress: {percent}%").and_then(|()| stderr().flush());

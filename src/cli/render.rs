@@ -1,12 +1,12 @@
 //! `luch render`: a file becomes a scene, a film, and files.
 
-use super::Failure;
 use super::arguments::RenderArguments;
 use super::interrupt::Interrupt;
 use super::outputs::Outputs;
-use super::progress;
+use super::progress::{self, State};
 use super::summary::{self, Done, Seconds, Summary};
 use super::values::{BackgroundValue, Size};
+use super::{Failure, command_line};
 use glam::Vec3;
 use luch::Error;
 use luch::accel::{self, Accel, Isa, Layout};
@@ -18,8 +18,8 @@ use std::path::Path;
 use std::time::Instant;
 
 /// The paper's figure 4, for who gives no file.
-const FIGURE_4: &str = include_str!("../../assets/scenes/figure-4.toml");
-const FIGURE_4_NAME: &str = "figure-4.toml";
+pub(super) const FIGURE_4: &str = include_str!("../../assets/scenes/figure-4.toml");
+pub(super) const FIGURE_4_NAME: &str = "figure-4.toml";
 
 /// Renders what the arguments ask for.
 pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
@@ -55,7 +55,12 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
 
     let accel = Accel::build(&scene, &accel_options);
     let progress = Progress::default();
-    let film = progress::shown(arguments.quiet, &progress, || {
+    let state = || State {
+        doing: "rendering".into(),
+        share: progress.share(),
+        left: None,
+    };
+    let film = progress::shown(arguments.quiet, &state, || {
         render(&scene, &accel, &settings, &progress)
     });
 
@@ -180,13 +185,4 @@ fn output_options(
         bit_depth: arguments.bit_depth.into(),
         comments: Some(command_line()),
     }
-}
-
-/// The command as it was given, for the picture's comments.
-fn command_line() -> String {
-    let words = std::env::args_os()
-        .skip(1)
-        .map(|word| word.to_string_lossy().into_owned());
-    let command: Vec<String> = std::iter::once("luch".to_owned()).chain(words).collect();
-    command.join(" ")
 }

@@ -17,14 +17,47 @@ pub fn sphereflake(depth: u32) -> Vec<Sphere> {
     while let Some((sphere, up, generations)) = open.pop() {
         spheres.push(sphere);
         if generations > 0 {
-            open.extend(children(up).map(|direction| {
-                let radius = sphere.radius / 3.0;
-                let center = sphere.center + direction * (sphere.radius + radius);
-                (Sphere { center, radius }, direction, generations - 1)
-            }));
+            let nine = (0..9).filter_map(|number| child_of(&sphere, up, number));
+            open.extend(nine.map(|(child, up)| (child, up, generations - 1)));
         }
     }
     spheres
+}
+
+/// The first `count` spheres, generation after generation; of the last one, an even share, if it is not whole.
+pub fn sphereflake_of(count: u32) -> Vec<Sphere> {
+    let root = Sphere {
+        center: Vec3::ZERO,
+        radius: 1.0,
+    };
+    let mut spheres = Vec::new();
+    let mut generation = vec![(root, Vec3::Y)];
+    loop {
+        spheres.extend(generation.iter().map(|(sphere, _)| *sphere));
+        let missing = count as usize - spheres.len().min(count as usize);
+        if missing == 0 {
+            spheres.truncate(count as usize);
+            return spheres;
+        }
+        // Only those that are taken are made: a whole generation might be nine times as many.
+        let next = generation.len() * 9;
+        let share = missing.min(next);
+        generation = (0..share)
+            .filter_map(|i| {
+                let child = (i as u64 * next as u64 / share as u64) as usize;
+                let (parent, up) = generation.get(child / 9)?;
+                child_of(parent, *up, child % 9)
+            })
+            .collect();
+    }
+}
+
+/// One of the nine spheres on another, and its own way up.
+fn child_of(parent: &Sphere, up: Vec3, number: usize) -> Option<(Sphere, Vec3)> {
+    let direction = children(up).nth(number)?;
+    let radius = parent.radius / 3.0;
+    let center = parent.center + direction * (parent.radius + radius);
+    Some((Sphere { center, radius }, direction))
 }
 
 /// Six directions around the equator of `up` and three above them.
@@ -47,5 +80,22 @@ mod tests {
     #[test]
     fn two_generations_are_ninety_one_spheres() {
         assert_eq!(sphereflake(2).len(), 91);
+    }
+
+    #[test]
+    fn generation_by_generation_the_spheres_are_the_same() {
+        let sorted = |mut spheres: Vec<Sphere>| {
+            let key = |s: &Sphere| [s.center.x, s.center.y, s.center.z, s.radius].map(f32::to_bits);
+            spheres.sort_by_key(key);
+            spheres
+        };
+        assert_eq!(sorted(sphereflake_of(820)), sorted(sphereflake(3)));
+    }
+
+    #[test]
+    fn any_number_of_spheres_can_be_had() {
+        for count in [0, 1, 2, 9, 10, 11, 500, 1000] {
+            assert_eq!(sphereflake_of(count).len(), count as usize);
+        }
     }
 }

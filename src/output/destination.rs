@@ -81,6 +81,19 @@ impl Destination {
         self.put_in_place().map_err(Error::io(&path, "write"))
     }
 
+    /// Writes a file's bytes, all of them or nothing: those of a picture that is no film.
+    ///
+    /// # Errors
+    ///
+    /// The system refuses. What was there before is there still.
+    pub fn write_bytes(mut self, bytes: &[u8]) -> Result<(), Error> {
+        let path = self.path.clone();
+        let written = self.temporary.write_all(bytes);
+        written
+            .and_then(|()| self.put_in_place())
+            .map_err(Error::io(&path, "write"))
+    }
+
     fn put_in_place(self) -> io::Result<()> {
         let file = self.temporary.as_file();
         if let Some(permissions) = self.permissions {

@@ -38,6 +38,23 @@ fn encoded(film: &Film, options: &Options) -> Result<Vec<u8>, png::EncodingError
     Ok(bytes)
 }
 
+/// A PNG of `rgb`: 8-bit sRGB, three bytes a pixel, top row first. For pictures that are no film.
+///
+/// # Errors
+///
+/// A side is zero, or `rgb` is not as long as the sides say.
+pub fn rgb_png(width: u32, height: u32, rgb: &[u8]) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(rgb)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
 /// The bytes of row `y`.
 fn line(film: &Film, options: &Options, y: usize) -> Vec<u8> {
     let exposure = libm::exp2f(options.exposure);

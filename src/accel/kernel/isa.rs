@@ -60,6 +60,11 @@ impl Isa {
         sets.into_iter().map(Isa).collect()
     }
 
+    /// That which every machine has: no instruction set at all.
+    pub fn scalar() -> Isa {
+        Isa(Set::Scalar)
+    }
+
     /// The widest that this machine has.
     pub fn detect() -> Isa {
         Isa::available().pop().unwrap_or(Isa(Set::Scalar))
