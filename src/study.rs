@@ -20,6 +20,7 @@ pub mod rays;
 pub mod report;
 pub mod resize;
 pub mod results;
+mod round;
 pub mod run;
 pub mod samples;
 pub mod scaling;

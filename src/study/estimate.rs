@@ -7,6 +7,9 @@ use super::statistics::{bootstrap_median, median, outliers};
 /// Resamples of a bootstrap: its interval moves by less than the noise with more.
 const RESAMPLES: usize = 2000;
 
+/// So many of the cases that there was no time for are named.
+const FEW_NAMES: usize = 6;
+
 /// A median, and where it lies with a confidence of 95 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -124,7 +127,11 @@ impl Results {
             .filter_map(|case| Some(format!("left out: {}: {}", case.name, reason(case)?)))
             .collect();
         if !no_time.is_empty() {
-            let names: Vec<&str> = no_time.iter().map(|case| case.name.as_str()).collect();
+            let few = no_time.iter().take(FEW_NAMES);
+            let mut names: Vec<String> = few.map(|case| case.name.clone()).collect();
+            if no_time.len() > FEW_NAMES {
+                names.push(format!("{} more", no_time.len() - FEW_NAMES));
+            }
             lines.push(format!(
                 "left out: there was {NO_TIME} for {}; a greater --budget has it",
                 names.join("; ")

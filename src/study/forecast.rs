@@ -1,10 +1,12 @@
 //! What a case is going to cost, to know what there is time for.
 
+use super::case::Case;
 use super::plan::Plan;
-use crate::accel::Layout;
+use super::setting::PRESETS;
+use crate::accel::{Builder, Layout, Options};
 
-/// What a warm-up builds, makes and checks beside the round that is in it, as builds of a case's own tree.
-const WARM_UP_BUILDS: f64 = 5.0;
+/// What a new scene's warm-up builds, makes and checks, as builds of a case's own tree.
+const NEW_SCENE_BUILDS: f64 = 5.0;
 
 /// What a case costs, in seconds.
 #[derive(Clone, Copy)]
@@ -19,50 +21,62 @@ pub(super) struct Cost {
     pub(super) build: f64,
 }
 
-/// What the case at `index` should cost: what others did or, where one of its group is known, what that did. The build
-/// grows in proportion to the primitives, all else hardly, unless there is no tree.
+/// What the case at `index` should cost, by the last that is known of its group, or else the first of all. Builds grow in
+/// proportion to the primitives, frames to the samples and hardly to the primitives, unless there is no tree.
 pub(super) fn expected(plan: &Plan, costs: &[Cost], index: usize) -> Cost {
     let case = &plan.cases[index];
-    let count = costs.len().max(1) as f64;
-    let mean = |of: fn(&Cost) -> f64| costs.iter().map(of).sum::<f64>() / count;
-    let alike = costs
+    let of_group = costs
         .iter()
         .rev()
         .find(|cost| plan.cases[cost.case].group == case.group);
-    let Some(cost) = alike else {
+    let Some(cost) = of_group.or(costs.first()) else {
         return Cost {
             case: index,
-            warm_up: mean(|cost| cost.warm_up),
-            round: mean(|cost| cost.round),
-            build: mean(|cost| cost.build),
-        };
-    };
-    let before = plan.cases[cost.case].source.primitives.max(1) as f64;
-    let times = (case.source.primitives as f64 / before).max(1.0);
-    if case.options.layout == Layout::List {
-        return Cost {
-            case: index,
-            warm_up: cost.warm_up * times,
-            round: cost.round * times,
+            warm_up: 0.0,
+            round: 0.0,
             build: 0.0,
         };
-    }
-    let more = cost.build * (times - 1.0);
+    };
+    let known = &plan.cases[cost.case];
+    let primitives = |case: &Case| case.source.primitives.max(1) as f64;
+    let times = primitives(case) / primitives(known);
+    let is_list = case.options.layout == Layout::List;
+    let efforts = build_effort(&case.options) / build_effort(&known.options);
+    let build = if is_list {
+        0.0
+    } else {
+        cost.build * times * efforts
+    };
+    let longer = f64::from(case.samples) / f64::from(known.samples)
+        * if is_list { times.max(1.0) } else { 1.0 };
+    let builds = |seconds| plan.builds_expected(seconds).iter().sum::<f64>();
+    let frames = (cost.round - builds(cost.build)).max(0.0);
+    let is_new = case.source.name != known.source.name;
+    let each = if is_new { NEW_SCENE_BUILDS } else { 1.0 };
     Cost {
         case: index,
-        warm_up: cost.warm_up + WARM_UP_BUILDS * more,
-        round: cost.round + more,
-        build: cost.build * times,
+        warm_up: (cost.warm_up - cost.build).max(0.0) * longer + each * build,
+        round: builds(build) + frames * longer,
+        build,
     }
+}
+
+/// What a build takes, about, against the usual one: as measured over a terrain of a million triangles on 2 cores.
+fn build_effort(options: &Options) -> f64 {
+    let efforts = match options.builder {
+        Builder::Own => [0.2, 0.5, 0.6, 1.0, 5.0, 17.0],
+        Builder::Obvhs => [0.4, 0.5, 0.8, 1.2, 3.5, 8.0],
+    };
+    let place = PRESETS.iter().position(|preset| *preset == options.preset);
+    efforts[place.unwrap_or(0)]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::case::{Case, Source};
+    use super::super::case::Source;
     use super::super::plan::Effort;
     use super::super::scaling;
     use super::*;
-    use crate::accel::Options;
     use crate::camera::Camera;
     use crate::scene::{Scene, SceneDescription};
     use crate::shade::Shading;
@@ -103,7 +117,7 @@ mod tests {
         let with_tree = expected(&plan(), &known, 2);
         assert_eq!(
             (with_tree.warm_up, with_tree.round),
-            (8.0 + 5.0 * 9.0, 2.0 + 9.0)
+            (7.0 + 10.0, 1.0 + 10.0)
         );
         let without = expected(&plan(), &known, 3);
         assert_eq!((without.warm_up, without.round), (80.0, 20.0));

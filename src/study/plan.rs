@@ -1,9 +1,12 @@
 //! What a study is going to measure, and for how long.
 
-use super::case::{Case, Measure};
+use super::case::{Case, Measure, Threads, What};
 use crate::render::{Settings, SettingsError};
 use crate::shade::Shading;
 use std::time::Duration;
+
+/// The share of the budget that a build on one thread may take to be timed.
+const MOST_FOR_ONE_THREAD: f64 = 0.01;
 
 /// What a study is going to measure.
 #[derive(Clone)]
@@ -124,6 +127,21 @@ impl Plan {
             return Err(PlanError::Empty);
         }
         Ok(self)
+    }
+
+    /// What its builds of one case should take where one on all threads takes `seconds`: one on a single thread is not among
+    /// them where it would take too much of the budget.
+    pub(super) fn builds_expected(&self, seconds: f64) -> Vec<f64> {
+        let of = |measure: &Measure| match (measure.what, measure.threads) {
+            (What::Build, Threads::All) => Some(seconds),
+            (What::Build, Threads::One) => {
+                let alone = seconds * self.threads as f64;
+                let most = self.effort.budget.as_secs_f64() * MOST_FOR_ONE_THREAD;
+                (alone <= most).then_some(alone)
+            }
+            _ => None,
+        };
+        self.measures.iter().filter_map(of).collect()
     }
 
     /// How its pictures of so many samples a pixel should be.

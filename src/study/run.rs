@@ -1,12 +1,13 @@
 //! The measuring itself: a warm-up of every case, then round after round of all of them.
 
-use super::case::{Case, What};
+use super::case::Case;
 use super::forecast::{Cost, expected};
 use super::heat_maps::{self, HeatMap};
 use super::plan::Plan;
 use super::report::Picture;
-use super::results::{Facts, Measured, NO_TIME, Results, Run};
-use super::stage::{Stage, Stages};
+use super::results::{Facts, Measured, NO_TIME, Results};
+use super::round::Round;
+use super::stage::Stages;
 use super::watch::Watch;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::time::{Duration, Instant};
@@ -54,11 +55,10 @@ pub fn run(
         pools: Pools::new(plan.threads)?,
         stages: Stages::default(),
     };
-    let costs = study.warm_up(results);
-    save(results);
+    let costs = study.warm_up(results, save);
     study.rounds(results, &costs, save);
     results.partial = watch.is_cancelled();
-    Ok(study.heat_maps(results))
+    Ok(study.heat_maps(results, &costs))
 }
 
 /// The plan's cases, with what is known of them already.
@@ -102,7 +102,7 @@ impl Study<'_> {
     }
 
     /// A round of every case that is not kept, and what needs no clock; as many cases as there is time for.
-    fn warm_up(&mut self, results: &mut Results) -> Vec<Cost> {
+    fn warm_up(&mut self, results: &mut Results, save: &mut dyn FnMut(&Results)) -> Vec<Cost> {
         let mut costs: Vec<Cost> = Vec::new();
         let count = self.plan.cases.len();
         for (index, case) in self.plan.cases.iter().enumerate() {
@@ -136,6 +136,7 @@ impl Study<'_> {
                 Ok(None) => {}
                 Err(reason) => results.cases[index].left_out = Some(reason),
             }
+            save(results);
         }
         costs
     }
@@ -158,14 +159,23 @@ impl Study<'_> {
         facts.error = plan
             .error_against
             .map(|samples| stage.error(plan, samples, &film, pools));
+        let primitives = u64::from(stage.scene.primitive_count());
         let build = accel.statistics().build_time.as_secs_f64();
-        drop(accel);
         let start = Instant::now();
-        measure(stage, plan, case, 0, pools, watch, &mut Vec::new());
-        Ok(Some(WarmUp {
+        let round = Round {
+            stage,
+            plan,
+            case,
+            pools,
+            watch,
+            number: 0,
+        };
+        let builds: f64 = plan.builds_expected(build).iter().sum();
+        let runs = round.searched(&accel);
+        Ok(runs.map(|_| WarmUp {
             facts,
-            primitives: u64::from(stage.scene.primitive_count()),
-            round: start.elapsed().as_secs_f64(),
+            primitives,
+            round: builds + start.elapsed().as_secs_f64(),
             build,
         }))
     }
@@ -192,6 +202,13 @@ impl Study<'_> {
                     return;
                 }
                 let case = &self.plan.cases[index];
+                // Machines can become slower than they were in the warm-up.
+                if self.left() < 0.0 && (round > 1 || place > 0) {
+                    if round == 1 {
+                        results.cases[index].left_out = Some(NO_TIME.into());
+                    }
+                    continue;
+                }
                 if results
                     .runs
                     .iter()
@@ -208,17 +225,17 @@ impl Study<'_> {
                 );
                 let (plan, pools) = (self.plan, &self.pools);
                 match self.stages.of(case, plan, pools, &mut results.warnings) {
-                    Ok(stage) => {
-                        measure(
+                    Ok(stage) => results.runs.extend(
+                        Round {
                             stage,
                             plan,
                             case,
-                            round,
                             pools,
-                            self.watch,
-                            &mut results.runs,
-                        );
-                    }
+                            watch: self.watch,
+                            number: round,
+                        }
+                        .run(),
+                    ),
                     Err(reason) => results.cases[index].left_out = Some(reason),
                 }
             }
@@ -228,84 +245,26 @@ impl Study<'_> {
 }
 
 impl Study<'_> {
-    /// The heat maps of the plan, of the cases that were measured.
-    fn heat_maps(&mut self, results: &mut Results) -> Vec<Picture> {
+    /// The heat maps of the plan, of the cases that were measured and whose builds there is time for.
+    fn heat_maps(&mut self, results: &mut Results, costs: &[Cost]) -> Vec<Picture> {
         let (plan, pools, watch) = (self.plan, &self.pools, self.watch);
         let mut maps = Vec::new();
         for name in &plan.heat_maps {
-            let is_known = results.case(name).is_some_and(|case| case.facts.is_some());
-            let case = plan
-                .cases
-                .iter()
-                .find(|case| case.name == *name && is_known);
-            let Some(case) = case.filter(|_| !watch.is_cancelled()) else {
+            let place = plan.cases.iter().position(|case| case.name == *name);
+            let cost = costs.iter().find(|cost| Some(cost.case) == place);
+            let Some(cost) = cost.filter(|_| !watch.is_cancelled()) else {
                 continue;
             };
+            let left = plan.effort.budget.as_secs_f64() - self.started.elapsed().as_secs_f64();
+            if cost.build > left {
+                continue;
+            }
+            let case = &plan.cases[cost.case];
             watch.tell(&format!("heat maps: {name}"), 1.0, Duration::ZERO);
             if let Ok(stage) = self.stages.of(case, plan, pools, &mut results.warnings) {
                 maps.extend(HeatMap::of(stage, plan, case, pools, &watch.picture));
             }
         }
         heat_maps::pictures(&maps)
-    }
-}
-
-/// One run of everything that is timed of a case.
-fn measure(
-    stage: &mut Stage,
-    plan: &Plan,
-    case: &Case,
-    round: u32,
-    pools: &Pools,
-    watch: &Watch,
-    runs: &mut Vec<Run>,
-) {
-    let mut push = |measure, seconds, rays, same_picture| {
-        runs.push(Run {
-            case: case.name.clone(),
-            round,
-            measure,
-            seconds,
-            rays,
-            same_picture,
-        });
-    };
-    let mut accel = None;
-    for &measure in plan
-        .measures
-        .iter()
-        .filter(|measure| measure.what == What::Build)
-    {
-        // The tree before goes first: two at once are no build's memory.
-        drop(accel.take());
-        let built = stage.build(case, pools.of(measure.threads));
-        push(
-            measure,
-            built.statistics().build_time.as_secs_f64(),
-            0,
-            true,
-        );
-        accel = Some(built);
-    }
-    let accel = accel.unwrap_or_else(|| stage.build(case, &pools.all));
-    for &measure in &plan.measures {
-        if watch.is_cancelled() {
-            return;
-        }
-        let pool = pools.of(measure.threads);
-        match measure.what {
-            What::Build => {}
-            What::Rays(kind) => {
-                let (seconds, rays) = stage.trace(&accel, kind, pool);
-                push(measure, seconds, rays, true);
-            }
-            What::Frame => {
-                let frame = stage.frame(&accel, plan, case, pool, &watch.picture);
-                if let Some((film, seconds)) = frame {
-                    let same = stage.has_the_reference_bits(plan, case, &film, pools);
-                    push(measure, seconds, film.statistics.rays(), same);
-                }
-            }
-        }
     }
 }

@@ -146,10 +146,12 @@ fn growths(results: &Results) -> Table {
     let frame = |case: &Measured| seconds(results, case, What::Frame);
     let build = |case: &Measured| seconds(results, case, What::Build);
     let nodes = |case: &Measured| Some(Estimate::exactly(primary(case)?.nodes));
-    let figures: [(&str, Figure); 3] = [
+    let bytes = |case: &Measured| Some(Estimate::exactly(case.facts.as_ref()?.bytes as f64));
+    let figures: [(&str, Figure); 4] = [
         ("frame", &frame),
         ("build", &build),
         ("nodes a ray", &nodes),
+        ("memory", &bytes),
     ];
     let mut rows = Vec::new();
     for group in groups(results) {

@@ -1,0 +1,96 @@
+//! One run of everything that is timed of a case.
+
+use super::case::{Case, Measure, Threads, What};
+use super::plan::Plan;
+use super::results::Run;
+use super::run::Pools;
+use super::stage::Stage;
+use super::watch::Watch;
+use crate::accel::Accel;
+
+/// One run of everything that is timed of a case.
+pub(super) struct Round<'a> {
+    pub(super) stage: &'a mut Stage,
+    pub(super) plan: &'a Plan,
+    pub(super) case: &'a Case,
+    pub(super) pools: &'a Pools,
+    pub(super) watch: &'a Watch,
+    /// From 1; 0 is the warm-up.
+    pub(super) number: u32,
+}
+
+impl Round<'_> {
+    /// Every run; none where one was interrupted, so that a study that goes on repeats them all.
+    pub(super) fn run(self) -> Vec<Run> {
+        let (mut runs, accel) = self.built();
+        let searched = self.searched(&accel);
+        searched.map_or_else(Vec::new, |searched| {
+            runs.extend(searched);
+            runs
+        })
+    }
+
+    /// The builds that are timed, of which the tree of the last comes back: first on all threads, then on one if there is
+    /// time for that.
+    fn built(&self) -> (Vec<Run>, Accel) {
+        let mut accel = self.stage.build(self.case, &self.pools.all);
+        let seconds = accel.statistics().build_time.as_secs_f64();
+        let asks = |threads| {
+            let what = What::Build;
+            let measure = Measure { what, threads };
+            self.plan.measures.contains(&measure).then_some(measure)
+        };
+        let mut runs = Vec::new();
+        if let Some(measure) = asks(Threads::All) {
+            runs.push(self.timed(measure, seconds, 0, true));
+        }
+        let has_time = self.plan.builds_expected(seconds).len() > runs.len();
+        if let Some(measure) = asks(Threads::One).filter(|_| has_time) {
+            // The tree before goes first: two at once are no build's memory.
+            drop(accel);
+            accel = self.stage.build(self.case, &self.pools.one);
+            let seconds = accel.statistics().build_time.as_secs_f64();
+            runs.push(self.timed(measure, seconds, 0, true));
+        }
+        (runs, accel)
+    }
+
+    /// Rays and frames; `None` where one was interrupted.
+    pub(super) fn searched(self, accel: &Accel) -> Option<Vec<Run>> {
+        let mut runs = Vec::new();
+        for &measure in &self.plan.measures {
+            if self.watch.is_cancelled() {
+                return None;
+            }
+            let pool = self.pools.of(measure.threads);
+            match measure.what {
+                What::Build => {}
+                What::Rays(kind) => {
+                    let (seconds, rays) = self.stage.trace(accel, kind, pool);
+                    runs.push(self.timed(measure, seconds, rays, true));
+                }
+                What::Frame => {
+                    let (plan, case, progress) = (self.plan, self.case, &self.watch.picture);
+                    let (film, seconds) = self.stage.frame(accel, plan, case, pool, progress)?;
+                    let same = self
+                        .stage
+                        .has_the_reference_bits(plan, case, &film, self.pools);
+                    let rays = film.statistics.rays();
+                    runs.push(self.timed(measure, seconds, rays, same));
+                }
+            }
+        }
+        Some(runs)
+    }
+
+    fn timed(&self, measure: Measure, seconds: f64, rays: u64, same_picture: bool) -> Run {
+        Run {
+            case: self.case.name.clone(),
+            round: self.number,
+            measure,
+            seconds,
+            rays,
+            same_picture,
+        }
+    }
+}
