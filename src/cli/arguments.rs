@@ -142,7 +142,8 @@ pub(super) struct RenderArguments {
     pub(super) exposure: Option<f32>,
 
     /// What an EXR holds, with commas between: beauty; Z, the depth, or data, all such layers; cost, the nodes and
-    /// primitives that the rays of each pixel were tested against [default: beauty,data]
+    /// primitives that the rays of each pixel were tested against, of which a PNG gets heat maps beside it [default:
+    /// beauty,data]
     #[arg(long, value_name = "NAMES", value_parser = values::layers)]
     pub(super) layers: Option<Layers>,
 

@@ -21,7 +21,7 @@ pub const LAYOUT: &str = "layout";
 /// See [`PRESET`].
 pub const KERNEL: &str = "kernel";
 /// See [`PRESET`].
-pub const OBVHS: &str = "built by obvhs";
+pub const OBVHS: &str = "obvhs preset";
 /// The case that all others differ from in one thing.
 pub const DEFAULT: &str = "default";
 /// The case without any tree.

@@ -9,7 +9,8 @@ pub fn complete(report: &mut Report, results: &Results) {
     let c = &results.circumstances;
     report.partial = results.partial;
     report.warnings = results.remarks();
-    report.circumstances = circumstances(c, results);
+    let of_study = std::mem::replace(&mut report.circumstances, circumstances(c, results));
+    report.circumstances.extend(of_study);
     report.repeat = vec![c.command.clone()];
     if results.partial {
         report.repeat.push(format!("{} --resume", c.command));

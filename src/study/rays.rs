@@ -97,9 +97,7 @@ fn plot(results: &Results) -> Option<Plot> {
     let of_case = |case: &Measured| {
         let points = all.iter().zip(1..).filter_map(|(&measure, place)| {
             let rate = results.mrays(&case.name, measure)?;
-            let (what, median) = (words(measure.what), rate.median);
-            let label = format!("{}, {what}: {median:.1} Mrays/s", case.name);
-            Some(point(f64::from(place), rate, label))
+            Some(point(f64::from(place), rate, words(measure.what)))
         });
         Series {
             name: case.name.clone(),

@@ -7,6 +7,12 @@ use super::run::Pools;
 use super::stage::Stage;
 use super::watch::Watch;
 use crate::accel::Accel;
+use std::time::Instant;
+
+/// Frames and rays are timed so often after a build, as long as that takes less than this share of the builds.
+const MOST_REPEATS: usize = 5;
+/// See [`MOST_REPEATS`].
+const SHARE_OF_BUILDS: f64 = 0.3;
 
 /// One run of everything that is timed of a case.
 pub(super) struct Round<'a> {
@@ -23,11 +29,20 @@ impl Round<'_> {
     /// Every run; none where one was interrupted, so that a study that goes on repeats them all.
     pub(super) fn run(self) -> Vec<Run> {
         let (mut runs, accel) = self.built();
-        let searched = self.searched(&accel);
-        searched.map_or_else(Vec::new, |searched| {
+        let builds: f64 = runs.iter().map(|run| run.seconds).sum();
+        let start = Instant::now();
+        let mut round = self;
+        for _ in 0..MOST_REPEATS {
+            let Some(searched) = round.searched(&accel) else {
+                return Vec::new();
+            };
             runs.extend(searched);
-            runs
-        })
+            // Where builds take most of the time, a few frames more cost nothing and say much.
+            if start.elapsed().as_secs_f64() > SHARE_OF_BUILDS * builds {
+                break;
+            }
+        }
+        runs
     }
 
     /// The builds that are timed, of which the tree of the last comes back: first on all threads, then on one if there is
@@ -56,7 +71,7 @@ impl Round<'_> {
     }
 
     /// Rays and frames; `None` where one was interrupted.
-    pub(super) fn searched(self, accel: &Accel) -> Option<Vec<Run>> {
+    pub(super) fn searched(&mut self, accel: &Accel) -> Option<Vec<Run>> {
         let mut runs = Vec::new();
         for &measure in &self.plan.measures {
             if self.watch.is_cancelled() {

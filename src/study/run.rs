@@ -162,7 +162,7 @@ impl Study<'_> {
         let primitives = u64::from(stage.scene.primitive_count());
         let build = accel.statistics().build_time.as_secs_f64();
         let start = Instant::now();
-        let round = Round {
+        let mut round = Round {
             stage,
             plan,
             case,
@@ -175,7 +175,7 @@ impl Study<'_> {
         Ok(runs.map(|_| WarmUp {
             facts,
             primitives,
-            round: builds + start.elapsed().as_secs_f64(),
+            round: builds + start.elapsed().as_secs_f64().max(0.3 * builds),
             build,
         }))
     }

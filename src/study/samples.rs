@@ -120,7 +120,7 @@ fn times(results: &Results) -> Option<Plot> {
         let points = results.cases.iter().filter_map(|case| {
             let n = case.settings.samples;
             let e = results.estimate(&case.name, frame(threads))?;
-            let label = format!("{n} a pixel, {name}: {}", in_words(e.median));
+            let label = format!("{n} a pixel, {name}");
             Some(point(f64::from(n), e, label))
         });
         Series {
@@ -133,7 +133,7 @@ fn times(results: &Results) -> Option<Plot> {
         point(
             f64::from(n),
             Estimate::exactly(ms / 1e3),
-            format!("{n} a pixel, the paper: {:.1} s", ms / 1e3),
+            format!("{n} a pixel, the paper"),
         )
     });
     let mut series = vec![
@@ -166,11 +166,7 @@ fn errors(results: &Results) -> Option<Plot> {
         .filter_map(|case| {
             let (n, error) = (case.settings.samples, case.facts.as_ref()?.error?);
             let x = seconds(results, case, Threads::All)?;
-            Some(point(
-                x,
-                Estimate::exactly(error),
-                format!("{n} a pixel: {error:.4} in {}", in_words(x)),
-            ))
+            Some(point(x, Estimate::exactly(error), format!("{n} a pixel")))
         })
         .collect();
     (points.len() > 1).then(|| Plot {

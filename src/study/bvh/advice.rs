@@ -92,7 +92,7 @@ pub(super) fn findings(results: &Results) -> Vec<String> {
     };
     let for_one = match once {
         Some((once, words)) => format!(
-            "for one picture use `{words}` ({}: {:.0} % less in all than the defaults)",
+            "for one picture use {words} ({}: {:.0} % less in all than the defaults)",
             build_and_frame(once),
             saved(once, total)
         ),
@@ -116,7 +116,7 @@ pub(super) fn findings(results: &Results) -> Vec<String> {
                     format!(" from {:.0} on", libm::ceil(frames))
                 });
             format!(
-                "for many pictures{from} use `{words}` (frame {}, {:.0} % less than the defaults)",
+                "for many pictures{from} use {words} (frame {}, {:.0} % less than the defaults)",
                 in_words(often.frame.median),
                 saved(often, frame)
             )

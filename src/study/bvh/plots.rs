@@ -3,7 +3,7 @@
 use super::super::estimate::Estimate;
 use super::super::plot::{Axis, Plot, Point, Scale, Series, Style};
 use super::super::results::{Measured, Results};
-use super::super::show::{axis, in_words, point};
+use super::super::show::{axis, point};
 use super::super::statistics::{break_even, correlation, front, rank_correlation};
 use super::advice::{FRAME, Timed, timed};
 use super::{DEFAULT, KERNEL, LAYOUT, LEAF_SIZE, OBVHS, PRESET};
@@ -70,8 +70,7 @@ fn against(
     let cases = comparable(results);
     let point_of = |timed: &Timed| {
         let (x, y) = (of(timed.case)?, results.estimate(&timed.case.name, FRAME)?);
-        let label = format!("{}: {}", timed.case.name, in_words(y.median));
-        Some(point(x, y, label))
+        Some(point(x, y, timed.case.name.clone()))
     };
     let series: Vec<Series> = SERIES
         .iter()
@@ -118,11 +117,7 @@ fn by_leaf_size(results: &Results) -> Option<Plot> {
         .filter_map(|timed| {
             let size = timed.case.settings.leaf_size;
             let y = results.estimate(&timed.case.name, FRAME)?;
-            Some(point(
-                f64::from(size),
-                y,
-                format!("at most {size}: {}", in_words(y.median)),
-            ))
+            Some(point(f64::from(size), y, format!("at most {size}")))
         })
         .collect();
     (points.len() > 1).then(|| Plot {
@@ -156,14 +151,9 @@ fn front_of_choices(results: &Results) -> Option<Plot> {
                 .filter(|(_, timed)| timed.case.group == group);
             let points = of_group.filter_map(|(index, timed)| {
                 let y = results.estimate(&timed.case.name, FRAME)?;
-                let (build, name) = (in_words(timed.build.median), &timed.case.name);
                 Some(Point {
                     marked: best.contains(&index),
-                    ..point(
-                        timed.build.median,
-                        y,
-                        format!("{name}: build {build}, frame {}", in_words(y.median)),
-                    )
+                    ..point(timed.build.median, y, timed.case.name.clone())
                 })
             });
             Series {
@@ -229,11 +219,7 @@ fn pays_off(results: &Results) -> Option<Plot> {
                 let each = (timed.build.median + count * timed.frame.median) / count;
                 let at = Estimate::exactly(each);
                 let name = &timed.case.name;
-                point(
-                    count,
-                    at,
-                    format!("{name}, {count} pictures: {} each", in_words(each)),
-                )
+                point(count, at, format!("{name}, {count} pictures"))
             });
             Series {
                 name: timed.case.name.clone(),

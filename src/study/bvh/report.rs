@@ -15,6 +15,7 @@ pub fn report(results: &Results) -> Report {
             results.circumstances.subject
         ),
         findings: advice::findings(results),
+        circumstances: explanations(),
         plots: plots::plots(results),
         tables: vec![
             times(results),
@@ -24,6 +25,27 @@ pub fn report(results: &Results) -> Report {
         ],
         ..Report::default()
     }
+}
+
+/// What the words of the tables mean.
+fn explanations() -> Vec<(String, String)> {
+    let pairs = [
+        (
+            "Builders",
+            "own: at fastest stretches of a curve, at very-fast joined neighbours, at fast split from the top, from medium on \
+             both, of which the better is kept; obvhs: its joined neighbours and reinsertion",
+        ),
+        (
+            "Layouts",
+            "wide: eight children a node, triangles by eight; small: by four; bvh2: obvhs's binary nodes; cwbvh: obvhs's \
+             compressed nodes of eight, whose leaves have at most three primitives whatever is asked for, and whose boxes \
+             are grown by half a ten-thousandth of the scene; none: every primitive in turn. Kernels and packets are of luch's \
+             own two layouts",
+        ),
+    ];
+    pairs
+        .map(|(name, words)| (name.to_owned(), words.to_owned()))
+        .to_vec()
 }
 
 /// Medians with their intervals.

@@ -6,7 +6,7 @@ use super::super::plot::{Plot, Scale, Series, Style};
 use super::super::report::{Report, Table};
 use super::super::results::{Measured, Results, Tests};
 use super::super::sets::Kind;
-use super::super::show::{axis, column, in_words, number, point, text};
+use super::super::show::{axis, column, number, point, text};
 use super::WITHOUT_TREE;
 use super::growth::{Figure, Growths, by_n, groups, seconds};
 
@@ -63,23 +63,14 @@ fn plot(
     with_lists: bool,
     of: Figure,
 ) -> Option<Plot> {
-    let figure = |y: f64| match unit {
-        "s" => in_words(y),
-        "" => format!("{y:.1}"),
-        unit => format!("{y:.0} {unit}"),
-    };
     let series: Vec<Series> = groups(results)
         .into_iter()
         .filter(|group| with_lists || !group.ends_with(WITHOUT_TREE))
         .map(|group| {
             let figures = by_n(results, &group, of);
-            let points = figures.iter().map(|&(n, y)| {
-                point(
-                    n,
-                    y,
-                    format!("{group}, {n} primitives: {}", figure(y.median)),
-                )
-            });
+            let points = figures
+                .iter()
+                .map(|&(n, y)| point(n, y, format!("{group}, {n}")));
             let is_list = group.ends_with(WITHOUT_TREE);
             Series {
                 points: points.collect(),
