@@ -207,6 +207,7 @@ fn measure(task: &Task, folder: &Folder, started: Instant) -> Result<(), Failure
         ..
     } = task;
     let plan = plan.clone().checked().map_err(Failure::usage_or_scene)?;
+    folder.make()?;
     let before = machine::load_average();
     let others = machine::Watch::start();
     let mut results = match folder.results()? {

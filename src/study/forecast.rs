@@ -5,15 +5,14 @@ use super::plan::Plan;
 use super::setting::PRESETS;
 use crate::accel::{Builder, Layout, Options};
 
-/// What a new scene's warm-up builds, makes and checks, as builds of a case's own tree.
-const NEW_SCENE_BUILDS: f64 = 5.0;
-
 /// What a case costs, in seconds.
 #[derive(Clone, Copy)]
 pub(super) struct Cost {
     /// Its index.
     pub(super) case: usize,
-    /// Of all before the first round.
+    /// Of its scene: generated, and made ready.
+    pub(super) scene: f64,
+    /// Of all else before the first round.
     pub(super) warm_up: f64,
     /// Of everything that is timed in a round.
     pub(super) round: f64,
@@ -32,6 +31,7 @@ pub(super) fn expected(plan: &Plan, costs: &[Cost], index: usize) -> Cost {
     let Some(cost) = of_group.or(costs.first()) else {
         return Cost {
             case: index,
+            scene: 0.0,
             warm_up: 0.0,
             round: 0.0,
             build: 0.0,
@@ -52,10 +52,11 @@ pub(super) fn expected(plan: &Plan, costs: &[Cost], index: usize) -> Cost {
     let builds = |seconds| plan.builds_expected(seconds).iter().sum::<f64>();
     let frames = (cost.round - builds(cost.build)).max(0.0);
     let is_new = case.source.name != known.source.name;
-    let each = if is_new { NEW_SCENE_BUILDS } else { 1.0 };
+    let scene = if is_new { cost.scene * times } else { 0.0 };
     Cost {
         case: index,
-        warm_up: (cost.warm_up - cost.build).max(0.0) * longer + each * build,
+        scene,
+        warm_up: (cost.warm_up - cost.build).max(0.0) * longer + build,
         round: builds(build) + frames * longer,
         build,
     }
@@ -88,7 +89,7 @@ mod tests {
         let scene = Arc::new(Scene::new(SceneDescription::empty(camera)).expect("a scene"));
         let source = |shape: &str, count: u32| Source {
             primitives: u64::from(count),
-            ..Source::of(shape, scene.clone())
+            ..Source::of(&format!("{shape}:{count}"), scene.clone())
         };
         let shapes = ["terrain".to_owned()];
         let cases: Vec<Case> = scaling::cases(&shapes, &[100, 1000], &Options::default(), source);
@@ -109,12 +110,14 @@ mod tests {
     fn ten_times_the_primitives_cost_ten_times_the_build_and_without_a_tree_ten_times_all() {
         let cost = |case, build| Cost {
             case,
+            scene: 3.0,
             warm_up: 8.0,
             round: 2.0,
             build,
         };
         let known = [cost(0, 1.0), cost(1, 0.0)];
         let with_tree = expected(&plan(), &known, 2);
+        assert_eq!(with_tree.scene, 30.0);
         assert_eq!(
             (with_tree.warm_up, with_tree.round),
             (7.0 + 10.0, 1.0 + 10.0)

@@ -82,6 +82,8 @@ fn merged(plan: &Plan, known: &[Measured]) -> Vec<Measured> {
 struct WarmUp {
     facts: Facts,
     primitives: u64,
+    /// Seconds until the scene was there.
+    scene: f64,
     /// Seconds of a round.
     round: f64,
     /// Seconds of a build on all threads.
@@ -116,7 +118,7 @@ impl Study<'_> {
             let rounds: f64 = costs.iter().map(|cost| cost.round).sum();
             let next = expected(self.plan, &costs, index);
             if !costs.is_empty()
-                && next.warm_up + WANTED_ROUNDS * (rounds + next.round) > self.left()
+                && next.scene + next.warm_up + WANTED_ROUNDS * (rounds + next.round) > self.left()
             {
                 results.cases[index].left_out = Some(NO_TIME.into());
                 continue;
@@ -128,7 +130,8 @@ impl Study<'_> {
                     results.cases[index].facts = Some(learnt.facts);
                     costs.push(Cost {
                         case: index,
-                        warm_up: start.elapsed().as_secs_f64(),
+                        scene: learnt.scene,
+                        warm_up: start.elapsed().as_secs_f64() - learnt.scene,
                         round: learnt.round,
                         build: learnt.build,
                     });
@@ -148,7 +151,9 @@ impl Study<'_> {
         warnings: &mut Vec<String>,
     ) -> Result<Option<WarmUp>, String> {
         let (plan, pools, watch) = (self.plan, &self.pools, self.watch);
+        let start = Instant::now();
         let stage = self.stages.of(case, plan, pools, warnings)?;
+        let scene = start.elapsed().as_secs_f64();
         let accel = stage.build(case, &pools.all);
         stage.guard(&accel, plan, case, pools)?;
         let mut facts = stage.facts(&accel, case);
@@ -175,6 +180,7 @@ impl Study<'_> {
         Ok(runs.map(|_| WarmUp {
             facts,
             primitives,
+            scene,
             round: builds + start.elapsed().as_secs_f64().max(0.3 * builds),
             build,
         }))

@@ -55,7 +55,7 @@ pub(super) struct Common {
     pub(super) quick: bool,
 
     /// Fits the plan to so many minutes
-    #[arg(long, value_name = "MINUTES", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MINUTES", allow_negative_numbers = true, value_parser = minutes)]
     pub(super) budget: Option<f64>,
 
     /// Goes on with the study in the folder
@@ -164,6 +164,11 @@ pub(super) struct RaysArguments {
 
     #[command(flatten)]
     pub(super) common: Common,
+}
+
+fn minutes(text: &str) -> Result<f64, String> {
+    let minutes = text.parse().map_err(|_| "expected a number of minutes, as in 2.5");
+    minutes.map_err(String::from)
 }
 
 fn preset(name: &str) -> Result<Preset, String> {

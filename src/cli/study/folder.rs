@@ -21,7 +21,7 @@ pub(super) struct Folder {
 }
 
 impl Folder {
-    /// Makes the folder, if it is not there. One that holds a study is only taken to `resume` that.
+    /// A folder to be, or one that is there. One that holds a study is only taken to `resume` that.
     pub(super) fn open(path: &Path, resume: bool) -> Result<Folder, Failure> {
         let folder = Folder {
             path: path.to_owned(),
@@ -40,8 +40,12 @@ impl Folder {
                 print::path(path)
             )));
         }
-        fs::create_dir_all(path).map_err(|error| folder.problem(path, "make", &error))?;
         Ok(folder)
+    }
+
+    /// Makes the folder, if it is not there.
+    pub(super) fn make(&self) -> Result<(), Failure> {
+        fs::create_dir_all(&self.path).map_err(|error| self.problem(&self.path, "make", &error))
     }
 
     pub(super) fn path(&self, name: &str) -> PathBuf {

@@ -2,7 +2,7 @@
 
 use super::super::case::{Measure, Threads, What};
 use super::super::estimate::Estimate;
-use super::super::results::{Measured, Results};
+use super::super::results::{Measured, NO_TIME, Results};
 use super::super::show::in_words;
 use super::super::statistics::break_even;
 use super::{DEFAULT, LAYOUT, NO_TREE};
@@ -175,7 +175,7 @@ fn without_a_tree(results: &Results, default: &Timed) -> Option<String> {
             in_words(frame),
             frame / default.frame.median
         )),
-        (None, Some(reason)) => Some(format!("Without any tree {reason}: it was not measured.")),
-        (None, None) => None,
+        (None, Some(reason)) if reason != NO_TIME => Some(format!("Without any tree {reason}: it was not measured.")),
+        _ => None,
     }
 }
