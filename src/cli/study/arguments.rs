@@ -167,7 +167,9 @@ pub(super) struct RaysArguments {
 }
 
 fn minutes(text: &str) -> Result<f64, String> {
-    let minutes = text.parse().map_err(|_| "expected a number of minutes, as in 2.5");
+    let minutes = text
+        .parse()
+        .map_err(|_| "expected a number of minutes, as in 2.5");
     minutes.map_err(String::from)
 }
 

@@ -175,7 +175,9 @@ fn without_a_tree(results: &Results, default: &Timed) -> Option<String> {
             in_words(frame),
             frame / default.frame.median
         )),
-        (None, Some(reason)) if reason != NO_TIME => Some(format!("Without any tree {reason}: it was not measured.")),
+        (None, Some(reason)) if reason != NO_TIME => {
+            Some(format!("Without any tree {reason}: it was not measured."))
+        }
         _ => None,
     }
 }
