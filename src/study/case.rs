@@ -46,7 +46,7 @@ impl Source {
 
 /// What is timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(into = "String", try_from = "String")]
 pub enum What {
     /// From the scene to the finished tree.
     Build,
@@ -64,6 +64,23 @@ impl What {
             What::Frame => "frame",
             What::Rays(kind) => kind.name(),
         }
+    }
+}
+
+impl From<What> for String {
+    fn from(what: What) -> String {
+        what.name().into()
+    }
+}
+
+impl TryFrom<String> for What {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<What, String> {
+        let all = Kind::ALL.map(What::Rays);
+        let mut all = [What::Build, What::Frame].into_iter().chain(all);
+        let found = all.find(|what| what.name() == name);
+        found.ok_or_else(|| format!("nothing that is measured is called \"{name}\""))
     }
 }
 

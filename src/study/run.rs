@@ -7,7 +7,7 @@ use super::plan::Plan;
 use super::report::Picture;
 use super::results::{Facts, Measured, NO_TIME, Results};
 use super::round::Round;
-use super::stage::Stages;
+use super::stage::{MOST_KEPT_PRIMITIVES, Stages};
 use super::watch::Watch;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use std::time::{Duration, Instant};
@@ -128,11 +128,14 @@ impl Study<'_> {
                 Ok(Some(learnt)) => {
                     results.cases[index].primitives = learnt.primitives;
                     results.cases[index].facts = Some(learnt.facts);
+                    // What is too large to be kept is made again in every round.
+                    let is_kept = learnt.primitives <= MOST_KEPT_PRIMITIVES;
+                    let made_again = if is_kept { 0.0 } else { learnt.scene };
                     costs.push(Cost {
                         case: index,
                         scene: learnt.scene,
                         warm_up: start.elapsed().as_secs_f64() - learnt.scene,
-                        round: learnt.round,
+                        round: learnt.round + made_again,
                         build: learnt.build,
                     });
                 }

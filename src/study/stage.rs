@@ -19,10 +19,12 @@ use std::time::Instant;
 
 /// Rays of each kind that are counted.
 const COUNTED_RAYS: usize = 8192;
+/// Rays of a set, at most: for their memory.
+const MOST_RAYS: u64 = 2_000_000;
 /// Tests of primitives by brute force that the reference's own check may take.
 const CHECKING_TESTS: u64 = 20_000_000;
 /// Scenes above this are made again whenever they are needed.
-const MOST_KEPT_PRIMITIVES: u64 = 2_000_000;
+pub(super) const MOST_KEPT_PRIMITIVES: u64 = 2_000_000;
 /// So often a few rays are timed to know what all will take: the least counts, since machines have hiccups.
 const GUARDS: usize = 3;
 /// The share of the budget that one picture may take.
@@ -90,10 +92,19 @@ fn reference_options() -> Options {
     }
 }
 
+/// The plan's size, or as much of it as there are rays for.
+fn size_of_sets(plan: &Plan) -> [u32; 2] {
+    let [mut width, mut height] = plan.effort.size;
+    while u64::from(width) * u64::from(height) > MOST_RAYS {
+        (width, height) = (width.div_ceil(2), height.div_ceil(2));
+    }
+    [width, height]
+}
+
 impl Stage {
     fn new(scene: Arc<Scene>, plan: &Plan) -> Stage {
         let accel = Accel::build(&scene, &reference_options());
-        let sets = sets::make(&scene, &accel, sets::light(&scene), plan.effort.size);
+        let sets = sets::make(&scene, &accel, sets::light(&scene), size_of_sets(plan));
         Stage {
             scene,
             sets,
@@ -155,8 +166,9 @@ impl Stage {
             least = least.min(start.elapsed().as_secs_f64());
         }
         // Camera, shadow and some mirror rays.
-        let rays = set.rays.len() as f64 / rays.max(1) as f64 * f64::from(case.samples) * 2.5;
-        let seconds = least * rays / plan.threads as f64;
+        let [width, height] = plan.effort.size.map(f64::from);
+        let all = width * height * f64::from(case.samples) * 2.5;
+        let seconds = least * all / rays.max(1) as f64 / plan.threads as f64;
         if seconds > plan.effort.budget.as_secs_f64() * MOST_OF_THE_BUDGET {
             return Err(format!("a picture would take about {}", in_words(seconds)));
         }
