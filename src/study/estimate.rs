@@ -35,6 +35,15 @@ impl Estimate {
 }
 
 impl Estimate {
+    /// So many times as much.
+    pub fn times(self, factor: f64) -> Estimate {
+        Estimate {
+            median: self.median * factor,
+            low: self.low * factor,
+            high: self.high * factor,
+        }
+    }
+
     /// What is known without a doubt.
     pub fn exactly(value: f64) -> Estimate {
         Estimate {

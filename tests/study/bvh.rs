@@ -108,7 +108,10 @@ fn every_case_is_run_in_every_round_and_gives_the_reference_picture() {
         assert!(results.gave_the_same_picture(&case.name), "{}", case.name);
     }
     let report = bvh::report(&results);
-    assert!(report.findings[0].starts_with("For this model: for one picture"));
+    assert!(
+        report.findings[0]
+            .starts_with("For this model, at 1280 x 720 with 4 samples a pixel: for one")
+    );
     assert!(
         report
             .plots

@@ -62,14 +62,37 @@ fn options(case: &Measured) -> Option<String> {
 /// One sentence that says what to use for this model, and what else was found; nothing where nothing was timed.
 pub(super) fn findings(results: &Results) -> Vec<String> {
     let all = timed(results);
-    let Some(default) = all.iter().find(|timed| timed.case.name == DEFAULT).copied() else {
+    let Some(usual) = all.iter().find(|timed| timed.case.name == DEFAULT) else {
         return Vec::new();
     };
+    let mut lines = vec![what_to_use(results, &all, usual)];
+    lines.extend(spread(&all, usual));
+    lines.extend(without_a_tree(results, usual));
+    lines
+}
+
+/// What `luch render` draws of a model unless it is told otherwise: pixels, and samples of each.
+const PICTURE: ([u32; 2], u32) = ([1280, 720], 4);
+
+/// The advice, for a picture as people render them: the study's own are smaller, so that their times are multiplied.
+fn what_to_use(results: &Results, all: &[Timed], usual: &Timed) -> String {
+    let rays = |[width, height]: [u32; 2], samples: u32| {
+        f64::from(width) * f64::from(height) * f64::from(samples)
+    };
+    let factor = rays(PICTURE.0, PICTURE.1)
+        / rays(results.circumstances.size, usual.case.settings.samples).max(1.0);
+    fn of<'a>(timed: &Timed<'a>, factor: f64) -> Timed<'a> {
+        Timed {
+            frame: timed.frame.times(factor),
+            ..*timed
+        }
+    }
+    let default = of(usual, factor);
     // Kernels are the machine's affair, not a choice.
     let usable: Vec<(Timed, String)> = all
         .iter()
         .filter(|timed| timed.case.settings.kernel == default.case.settings.kernel)
-        .filter_map(|timed| Some((*timed, options(timed.case)?)))
+        .filter_map(|timed| Some((of(timed, factor), options(timed.case)?)))
         .collect();
     // The least of those that are surely below the default: machines are noisy.
     let least = |cost: fn(&Timed) -> [f64; 3]| {
@@ -88,7 +111,7 @@ pub(super) fn findings(results: &Results) -> Vec<String> {
     };
     let build_and_frame = |timed: &Timed| {
         let (build, frame) = (in_words(timed.build.median), in_words(timed.frame.median));
-        format!("build {build}, frame {frame}")
+        format!("build {build}, picture {frame}")
     };
     let for_one = match once {
         Some((once, words)) => format!(
@@ -116,17 +139,17 @@ pub(super) fn findings(results: &Results) -> Vec<String> {
                     format!(" from {:.0} on", libm::ceil(frames))
                 });
             format!(
-                "for many pictures{from} use {words} (frame {}, {:.0} % less than the defaults)",
+                "for many pictures{from} use {words} (picture {}, {:.0} % less than the defaults)",
                 in_words(often.frame.median),
                 saved(often, frame)
             )
         }
-        None => "for many keep the defaults, too: no setting's frames are surely faster".into(),
+        None => "for many keep the defaults, too: no setting's pictures are surely faster".into(),
     };
-    let mut lines = vec![format!("For this model: {for_one}; {for_many}.")];
-    lines.extend(spread(&all, &default));
-    lines.extend(without_a_tree(results, &default));
-    lines
+    let ([width, height], samples) = PICTURE;
+    format!(
+        "For this model, at {width} x {height} with {samples} samples a pixel: {for_one}; {for_many}."
+    )
 }
 
 /// How far apart the settings of each question are.
@@ -179,5 +202,95 @@ fn without_a_tree(results: &Results, default: &Timed) -> Option<String> {
             Some(format!("Without any tree {reason}: it was not measured."))
         }
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::case::Settings;
+    use super::super::super::results::{Circumstances, Facts, Run};
+    use super::*;
+
+    /// A study of the defaults and of the preset `fastest`, each with these builds and frames, seconds.
+    fn studied(default: [[f64; 3]; 2], fastest: [[f64; 3]; 2]) -> Results {
+        let mut results = Results::new("bvh", Circumstances::default());
+        results.circumstances.size = [1280, 720];
+        let cases = [
+            (DEFAULT, "medium", default),
+            ("preset fastest", "fastest", fastest),
+        ];
+        for (name, preset, times) in cases {
+            results.cases.push(Measured {
+                name: name.into(),
+                group: name.into(),
+                scene: "a chair".into(),
+                primitives: 100,
+                settings: Settings {
+                    builder: "own".into(),
+                    preset: preset.into(),
+                    leaf_size: 8,
+                    layout: "wide".into(),
+                    kernel: "scalar".into(),
+                    packets: true,
+                    samples: 4,
+                },
+                facts: Some(Facts {
+                    same_picture: true,
+                    ..Facts::default()
+                }),
+                left_out: None,
+            });
+            for (measure, seconds) in [BUILD, FRAME].into_iter().zip(times) {
+                for (round, seconds) in (1..).zip(seconds) {
+                    results.runs.push(Run {
+                        case: name.into(),
+                        round,
+                        measure,
+                        seconds,
+                        rays: 1,
+                        same_picture: true,
+                    });
+                }
+            }
+        }
+        results
+    }
+
+    #[test]
+    fn a_setting_that_is_surely_faster_is_advised_and_from_when_the_other_pays_off() {
+        // 0.3 s against 1.2 s for one; each frame of the default then saves 0.1 s of the 0.9 s.
+        let default = [[1.0; 3], [0.1; 3]];
+        let results = studied(default, [[0.1; 3], [0.2; 3]]);
+        let advice = &findings(&results)[0];
+        assert!(
+            advice.contains("for one picture use --bvh fastest"),
+            "{advice}"
+        );
+        assert!(advice.contains("for many keep the defaults"), "{advice}");
+        let results = studied(default, [[2.0; 3], [0.05; 3]]);
+        let advice = &findings(&results)[0];
+        assert!(
+            advice.contains("for one picture keep the defaults"),
+            "{advice}"
+        );
+        // A second more for the build, a twentieth less for each picture.
+        assert!(
+            advice.contains("for many pictures from 20 on use --bvh fastest"),
+            "{advice}"
+        );
+    }
+
+    #[test]
+    fn a_setting_within_the_noise_is_not_advised() {
+        let results = studied(
+            [[1.0, 1.1, 1.2], [0.1, 0.11, 0.12]],
+            [[0.9, 1.0, 1.1], [0.09, 0.10, 0.11]],
+        );
+        let advice = &findings(&results)[0];
+        assert!(
+            advice.contains("for one picture keep the defaults"),
+            "{advice}"
+        );
+        assert!(advice.contains("for many keep the defaults"), "{advice}");
     }
 }

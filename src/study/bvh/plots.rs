@@ -242,6 +242,7 @@ fn pays_off(results: &Results) -> Option<Plot> {
         ))
     });
     let slower: Vec<String> = slower.collect();
+    let [width, height] = results.circumstances.size;
     let caption = if slower.is_empty() {
         format!(
             "{} is the quickest to build and to render.",
@@ -249,7 +250,7 @@ fn pays_off(results: &Results) -> Option<Plot> {
         )
     } else {
         format!(
-            "Against {}, the slower builds have paid off: {} pictures.",
+            "Pictures of {width} x {height}. Against {}, the slower builds have paid off: {} of them.",
             quickest.case.name,
             slower.join(", ")
         )
