@@ -21,7 +21,7 @@ pub mod report;
 pub mod resize;
 pub mod results;
 mod round;
-pub mod run;
+mod run;
 pub mod samples;
 pub mod scaling;
 pub mod scenes;
