@@ -49,15 +49,14 @@ pub(super) fn expected(plan: &Plan, costs: &[Cost], index: usize) -> Cost {
     };
     let longer = f64::from(case.samples) / f64::from(known.samples)
         * if is_list { times.max(1.0) } else { 1.0 };
-    let builds = |seconds| plan.builds_expected(seconds).iter().sum::<f64>();
-    let frames = (cost.round - builds(cost.build)).max(0.0);
+    let frames = (cost.round - plan.builds_expected(cost.build)).max(0.0);
     let is_new = case.source.name != known.source.name;
     let scene = if is_new { cost.scene * times } else { 0.0 };
     Cost {
         case: index,
         scene,
         warm_up: (cost.warm_up - cost.build).max(0.0) * longer + build,
-        round: builds(build) + frames * longer,
+        round: plan.builds_expected(build) + frames * longer,
         build,
     }
 }

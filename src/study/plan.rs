@@ -129,19 +129,25 @@ impl Plan {
         Ok(self)
     }
 
-    /// What its builds of one case should take where one on all threads takes `seconds`: one on a single thread is not among
-    /// them where it would take too much of the budget.
-    pub(super) fn builds_expected(&self, seconds: f64) -> Vec<f64> {
-        let of = |measure: &Measure| match (measure.what, measure.threads) {
-            (What::Build, Threads::All) => Some(seconds),
-            (What::Build, Threads::One) => {
-                let alone = seconds * self.threads as f64;
-                let most = self.effort.budget.as_secs_f64() * MOST_FOR_ONE_THREAD;
-                (alone <= most).then_some(alone)
+    /// What the builds of one case should take in a round where one on all threads, which there always is, takes `seconds`.
+    pub(super) fn builds_expected(&self, seconds: f64) -> f64 {
+        let alone = seconds * self.threads as f64;
+        seconds
+            + if self.times_one_thread(seconds) {
+                alone
+            } else {
+                0.0
             }
-            _ => None,
+    }
+
+    /// Whether a build on one thread is timed where one on all takes `seconds`: it must not take too much of the budget.
+    pub(super) fn times_one_thread(&self, seconds: f64) -> bool {
+        let build = Measure {
+            what: What::Build,
+            threads: Threads::One,
         };
-        self.measures.iter().filter_map(of).collect()
+        let most = self.effort.budget.as_secs_f64() * MOST_FOR_ONE_THREAD;
+        self.measures.contains(&build) && seconds * self.threads as f64 <= most
     }
 
     /// How its pictures of so many samples a pixel should be.

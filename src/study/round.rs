@@ -12,7 +12,7 @@ use std::time::Instant;
 /// Frames and rays are timed so often after a build, as long as that takes less than this share of the builds.
 const MOST_REPEATS: usize = 5;
 /// See [`MOST_REPEATS`].
-const SHARE_OF_BUILDS: f64 = 0.3;
+pub(super) const SHARE_OF_BUILDS: f64 = 0.3;
 
 /// One run of everything that is timed of a case.
 pub(super) struct Round<'a> {
@@ -50,22 +50,20 @@ impl Round<'_> {
     fn built(&self) -> (Vec<Run>, Accel) {
         let mut accel = self.stage.build(self.case, &self.pools.all);
         let seconds = accel.statistics().build_time.as_secs_f64();
-        let asks = |threads| {
-            let what = What::Build;
-            let measure = Measure { what, threads };
-            self.plan.measures.contains(&measure).then_some(measure)
+        let build = |threads| Measure {
+            what: What::Build,
+            threads,
         };
         let mut runs = Vec::new();
-        if let Some(measure) = asks(Threads::All) {
-            runs.push(self.timed(measure, seconds, 0, true));
+        if self.plan.measures.contains(&build(Threads::All)) {
+            runs.push(self.timed(build(Threads::All), seconds, 0, true));
         }
-        let has_time = self.plan.builds_expected(seconds).len() > runs.len();
-        if let Some(measure) = asks(Threads::One).filter(|_| has_time) {
+        if self.plan.times_one_thread(seconds) {
             // The tree before goes first: two at once are no build's memory.
             drop(accel);
             accel = self.stage.build(self.case, &self.pools.one);
             let seconds = accel.statistics().build_time.as_secs_f64();
-            runs.push(self.timed(measure, seconds, 0, true));
+            runs.push(self.timed(build(Threads::One), seconds, 0, true));
         }
         (runs, accel)
     }

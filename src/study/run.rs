@@ -6,7 +6,7 @@ use super::heat_maps::{self, HeatMap};
 use super::plan::Plan;
 use super::report::Picture;
 use super::results::{Facts, Measured, NO_TIME, Results};
-use super::round::Round;
+use super::round::{Round, SHARE_OF_BUILDS};
 use super::stage::{MOST_KEPT_PRIMITIVES, Stages};
 use super::watch::Watch;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -178,13 +178,13 @@ impl Study<'_> {
             watch,
             number: 0,
         };
-        let builds: f64 = plan.builds_expected(build).iter().sum();
+        let builds = plan.builds_expected(build);
         let runs = round.searched(&accel);
         Ok(runs.map(|_| WarmUp {
             facts,
             primitives,
             scene,
-            round: builds + start.elapsed().as_secs_f64().max(0.3 * builds),
+            round: builds + start.elapsed().as_secs_f64().max(SHARE_OF_BUILDS * builds),
             build,
         }))
     }
@@ -251,9 +251,7 @@ impl Study<'_> {
             save(results);
         }
     }
-}
 
-impl Study<'_> {
     /// The heat maps of the plan, of the cases that were measured and whose builds there is time for.
     fn heat_maps(&mut self, results: &mut Results, costs: &[Cost]) -> Vec<Picture> {
         let (plan, pools, watch) = (self.plan, &self.pools, self.watch);
@@ -261,13 +259,11 @@ impl Study<'_> {
         for name in &plan.heat_maps {
             let place = plan.cases.iter().position(|case| case.name == *name);
             let cost = costs.iter().find(|cost| Some(cost.case) == place);
-            let Some(cost) = cost.filter(|_| !watch.is_cancelled()) else {
+            let left = self.left();
+            let has_time = |cost: &&Cost| cost.build <= left && !watch.is_cancelled();
+            let Some(cost) = cost.filter(has_time) else {
                 continue;
             };
-            let left = plan.effort.budget.as_secs_f64() - self.started.elapsed().as_secs_f64();
-            if cost.build > left {
-                continue;
-            }
             let case = &plan.cases[cost.case];
             watch.tell(&format!("heat maps: {name}"), 1.0, Duration::ZERO);
             if let Ok(stage) = self.stages.of(case, plan, pools, &mut results.warnings) {

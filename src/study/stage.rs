@@ -54,8 +54,12 @@ impl Stages {
             Some(at) => at,
             None => {
                 let scene = (case.source.make)().map_err(|error| error.to_string())?;
-                let stage = pools.all.install(|| Stage::new(scene, plan));
-                warnings.extend(stage.disagreement(name));
+                let (stage, unlike) = pools.all.install(|| Stage::new(scene, plan));
+                if unlike > 0 {
+                    warnings.push(format!(
+                        "{name}: {unlike} rays of the reference differ from brute force"
+                    ));
+                }
                 self.0.push((name.clone(), stage));
                 self.0.len() - 1
             }
@@ -102,31 +106,31 @@ fn size_of_sets(plan: &Plan) -> [u32; 2] {
 }
 
 impl Stage {
-    fn new(scene: Arc<Scene>, plan: &Plan) -> Stage {
+    /// The stage, and on how many rays the reference's own search differs from brute force.
+    fn new(scene: Arc<Scene>, plan: &Plan) -> (Stage, usize) {
         let accel = Accel::build(&scene, &reference_options());
         let sets = sets::make(&scene, &accel, sets::light(&scene), size_of_sets(plan));
-        Stage {
+        let stage = Stage {
             scene,
             sets,
             references: Vec::new(),
-        }
+        };
+        let unlike = stage.unlike_brute_force(&accel);
+        (stage, unlike)
     }
 
     fn is_small(&self) -> bool {
         u64::from(self.scene.primitive_count()) <= MOST_KEPT_PRIMITIVES
     }
 
-    /// Where the reference's own search and brute force find unlike things, on as many rays as there is time for.
-    fn disagreement(&self, name: &str) -> Option<String> {
-        let accel = Accel::build(&self.scene, &reference_options());
+    /// On how many rays a search and brute force find unlike things, of as many as there is time for.
+    fn unlike_brute_force(&self, accel: &Accel) -> usize {
         let primitives = u64::from(self.scene.primitive_count()).max(1);
         let rays = (CHECKING_TESTS / primitives).clamp(16, 4096) as usize;
         let unlike = |ray: &&Ray| accel.intersect(ray) != linear::intersect(&self.scene, ray);
         let all = &self.sets[Kind::Primary as usize].rays;
         let step = (all.len() / rays).max(1);
-        let count = all.iter().step_by(step).filter(unlike).count();
-        (count > 0)
-            .then(|| format!("{name}: {count} rays of the reference differ from brute force"))
+        all.iter().step_by(step).filter(unlike).count()
     }
 
     /// A tree as the case asks, on the threads of `pool`.
@@ -272,12 +276,11 @@ impl Stage {
         let Some(reference) = self.reference(plan, case.samples, pools) else {
             return false;
         };
-        let layers = film.layers.iter().zip(&reference.layers);
-        let bits = |values: &[f32]| -> Vec<u32> { values.iter().map(|x| x.to_bits()).collect() };
-        film.layers.len() == reference.layers.len()
-            && layers
-                .into_iter()
-                .all(|(a, b)| bits(&a.values) == bits(&b.values))
+        let bits = |film: &Film| -> Vec<u32> {
+            let values = film.layers.iter().flat_map(|layer| &layer.values);
+            values.map(|x| x.to_bits()).collect()
+        };
+        bits(film) == bits(reference)
     }
 
     /// The root mean square over pixels and channels of the difference to a picture of `samples` a pixel, as a display
