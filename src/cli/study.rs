@@ -95,10 +95,7 @@ fn of_bvh(arguments: &arguments::BvhArguments) -> Result<Task<'_>, Failure> {
 fn of_scaling(arguments: &arguments::ScalingArguments) -> Result<Task<'_>, Failure> {
     let common = &arguments.common;
     let effort = effort(common)?;
-    let options = Options {
-        isa: Isa::asked().map_err(Failure::usage_or_scene)?,
-        ..Options::default()
-    };
+    let options = usual_options()?;
     let (subject, cases) = match &arguments.model {
         Some(model) => {
             let subject = Subject::open(model, arguments.camera.as_deref(), effort.size)?;
@@ -139,10 +136,7 @@ fn of_samples(arguments: &arguments::SamplesArguments) -> Result<Task<'_>, Failu
         Some(scene) => Subject::open(scene, arguments.camera.as_deref(), effort.size)?,
         None => Subject::figure_4(effort.size)?,
     };
-    let options = Options {
-        isa: Isa::asked().map_err(Failure::usage_or_scene)?,
-        ..Options::default()
-    };
+    let options = usual_options()?;
     let plan = Plan {
         cases: samples::cases(&subject.source, &arguments.samples, &options),
         measures: samples::MEASURES.to_vec(),
@@ -171,6 +165,14 @@ fn of_rays(arguments: &arguments::RaysArguments) -> Result<Task<'_>, Failure> {
         subject,
         common,
         report: rays::report,
+    })
+}
+
+/// The usual tree, with the kernels that `LUCH_ISA` asks for.
+fn usual_options() -> Result<Options, Failure> {
+    Ok(Options {
+        isa: Isa::asked().map_err(Failure::usage_or_scene)?,
+        ..Options::default()
     })
 }
 

@@ -4,6 +4,7 @@ mod axis;
 mod canvas;
 mod draw;
 mod layout;
+mod legend;
 mod marker;
 mod number;
 mod place;

@@ -1,7 +1,8 @@
 //! A plot onto a canvas, from its grid up to its labels.
 
 use super::canvas::{self, Backend, Canvas, Ink, Raster, Side};
-use super::layout::{self, Form, Layout, SWATCH, TITLE_EM};
+use super::layout::{self, Form, Layout, TITLE_EM};
+use super::legend::legend;
 use super::marker::Marker;
 use super::number::engineering;
 use super::place::{Area, beside};
@@ -10,7 +11,7 @@ use crate::study::report::escape;
 use std::fmt::Write;
 
 /// A marker's size, and an emphasised one's.
-const RADIUS: f64 = 4.0;
+pub(super) const RADIUS: f64 = 4.0;
 const MARKED_RADIUS: f64 = 5.2;
 
 /// How much of their colour points keep beside emphasised ones.
@@ -187,7 +188,7 @@ fn line<B: Backend>(
 }
 
 /// The pieces of `path` that a broken line shows.
-fn dashes(path: &[(f64, f64)], dash: f64, gap: f64) -> Vec<Vec<(f64, f64)>> {
+pub(super) fn dashes(path: &[(f64, f64)], dash: f64, gap: f64) -> Vec<Vec<(f64, f64)>> {
     let mut dashes = Vec::new();
     let mut current = Vec::new();
     let (mut drawn, mut left) = (true, dash);
@@ -223,7 +224,7 @@ fn dashes(path: &[(f64, f64)], dash: f64, gap: f64) -> Vec<Vec<(f64, f64)>> {
 }
 
 /// Whether a series' points are drawn, or only its line.
-fn has_markers(series: &Series) -> bool {
+pub(super) fn has_markers(series: &Series) -> bool {
     matches!(series.style, Style::Points | Style::LineAndPoints)
 }
 
@@ -263,7 +264,7 @@ fn points<B: Backend>(canvas: &mut Canvas<B>, plot: &Plot, layout: &Layout) {
     }
 }
 
-fn marker<B: Backend>(
+pub(super) fn marker<B: Backend>(
     canvas: &mut Canvas<B>,
     series: usize,
     at: (f64, f64),
@@ -320,39 +321,5 @@ fn labels<B: Backend>(canvas: &mut Canvas<B>, plot: &Plot, layout: &Layout) {
             );
             taken.push(area);
         }
-    }
-}
-
-fn legend<B: Backend>(canvas: &mut Canvas<B>, plot: &Plot, layout: &Layout) {
-    for (i, (series, &(x, baseline))) in plot.series.iter().zip(&layout.legend).enumerate() {
-        let y = baseline - 0.35 * layout.em;
-        let ends = [(x, y), (x + SWATCH - 7.0, y)];
-        match series.style {
-            Style::Points => {}
-            Style::Line | Style::LineAndPoints => canvas.line(&ends, 1.75, Ink::Series(i)),
-            Style::Dashed => {
-                for dash in dashes(&ends, 7.0, 4.5) {
-                    canvas.line(&dash, 1.75, Ink::Series(i));
-                }
-            }
-        }
-        if has_markers(series) {
-            marker(
-                canvas,
-                i,
-                (x + (SWATCH - 7.0) / 2.0, y),
-                RADIUS,
-                Ink::Series(i),
-                1.0,
-            );
-        }
-        let name = layout::legend_name(&series.name);
-        canvas.text(
-            &name,
-            (x + SWATCH, baseline),
-            layout.em,
-            Ink::Muted,
-            Side::Start,
-        );
     }
 }
