@@ -19,7 +19,7 @@ pub const COLUMNS: [(&str, &str); 23] = [
     ("nodes", "of all trees"),
     ("leaves", "of all trees"),
     ("depth", "nodes on the longest way down"),
-    ("bytes", "of nodes and primitives in memory"),
+    ("bytes", "of nodes and primitives in memory, bytes"),
     (
         "sah_cost",
         "surface-area cost, a node and a primitive costing 1 each",
@@ -30,7 +30,7 @@ pub const COLUMNS: [(&str, &str); 23] = [
         "build, frame, or the kind of rays of search alone",
     ),
     ("threads", "one or all"),
-    ("seconds", "what the run took"),
+    ("seconds", "what the run took, seconds"),
     ("rays", "how many were traced; 0 of a build"),
     (
         "same_picture",

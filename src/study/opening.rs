@@ -1,8 +1,9 @@
 //! What every report opens and closes with.
 
-use super::report::Report;
+use super::csv::COLUMNS;
+use super::report::{Report, Table};
 use super::results::{Circumstances, Results};
-use super::show::in_words;
+use super::show::{column, in_words, text};
 
 /// Puts into `report` on what it was measured, what makes it doubtful, and how to repeat it.
 pub fn complete(report: &mut Report, results: &Results) {
@@ -11,9 +12,21 @@ pub fn complete(report: &mut Report, results: &Results) {
     report.warnings = results.remarks();
     let of_study = std::mem::replace(&mut report.circumstances, circumstances(c, results));
     report.circumstances.extend(of_study);
+    report.tables.push(columns());
     report.repeat = vec![c.command.clone()];
     if results.partial {
         report.repeat.push(format!("{} --resume", c.command));
+    }
+}
+
+/// What `results.csv` beside the report holds.
+fn columns() -> Table {
+    Table {
+        title: "Columns of results.csv, which has a row for every run".into(),
+        columns: vec![column("column", ""), column("what it holds", "")],
+        rows: COLUMNS
+            .map(|(name, what)| vec![text(name), text(what)])
+            .to_vec(),
     }
 }
 

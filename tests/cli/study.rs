@@ -46,6 +46,7 @@ fn a_study_leaves_a_report_every_sample_and_every_plot_twice() {
     assert_eq!(csv.lines().count(), results.runs.len() + 1);
     let page = String::from_utf8(folder.read("out/report.html")).expect("UTF-8");
     assert!(page.contains("model.obj") && page.contains("luch study bvh model.obj"));
+    assert!(page.contains("Columns of results.csv") && page.contains("what the run took, seconds"));
     for plot in ["render-time-by-bytes", "build-time-and-render-time"] {
         assert!(
             folder
