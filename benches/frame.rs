@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput};
 use luch::accel::{Accel, Options};
-use luch::load::{CameraChoice, Viewpoint, scene_file};
+use luch::load::{self, CameraChoice, Viewpoint, scene_file};
 use luch::render::{Progress, Settings, render};
 use luch::shade::Shading;
 use std::path::Path;
@@ -20,7 +20,8 @@ pub(crate) fn whole_frames(criterion: &mut Criterion) {
             background: None,
             exposure: None,
         };
-        let Ok((scene, _)) = scene_file::open(&path).and_then(|asset| asset.scene(0.0, &viewpoint))
+        let Ok((scene, _)) = scene_file::open(&path, &load::Options::default())
+            .and_then(|asset| asset.scene(0.0, &viewpoint))
         else {
             continue;
         };

@@ -14,6 +14,8 @@ pub(crate) fn files(criterion: &mut Criterion) {
         group.throughput(Throughput::Bytes(
             path.metadata().map_or(0, |metadata| metadata.len()),
         ));
-        group.bench_function(name, |bench| bench.iter(|| load::open(&path)));
+        group.bench_function(name, |bench| {
+            bench.iter(|| load::open(&path, &load::Options::default()))
+        });
     }
 }

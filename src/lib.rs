@@ -9,7 +9,7 @@
 //! use luch::shade::Shading;
 //! use std::path::Path;
 //!
-//! let asset = load::open(Path::new("assets/models/cube.glb"))?;
+//! let asset = load::open(Path::new("assets/models/cube.glb"), &load::Options::default())?;
 //! let camera = CameraChoice::OfFile;
 //! let viewpoint =
 //!     Viewpoint { aspect: 4.0 / 3.0, camera, fov_y: None, background: None, exposure: None };

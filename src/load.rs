@@ -9,12 +9,16 @@ mod exposure;
 mod files;
 mod images;
 mod model;
+mod options;
 mod tangents;
 mod viewpoint;
 mod warnings;
 
 pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
-pub use model::{ExtensionFacts, Facts, Model, ModelCamera, ModelMesh, Node, Part, TextureFacts};
+pub use model::{
+    ExtensionFacts, Facts, Model, ModelCamera, ModelMesh, Node, Part, TextureFacts, Treatment,
+};
+pub use options::{AnimationChoice, Options};
 pub use viewpoint::{CameraChoice, Choices, Viewpoint};
 pub use warnings::{Warning, Warnings};
 
@@ -26,12 +30,12 @@ use std::path::Path;
 /// # Errors
 ///
 /// The file cannot be read, is malformed, asks for what luch does not do, or has nothing to draw.
-pub fn open(path: &Path) -> Result<Asset, Error> {
+pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
-        Some("toml") => scene_file::open(path),
-        Some("gltf" | "glb") => gltf::open(path).map(Asset::of_model),
-        Some("obj") => obj::open(path).map(Asset::of_model),
+        Some("toml") => scene_file::open(path, options),
+        Some("gltf" | "glb") => gltf::open(path, options).map(Asset::of_model),
+        Some("obj") => obj::open(path, options).map(Asset::of_model),
         _ => {
             files::check(path)?;
             Err(Error::Unsupported {

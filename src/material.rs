@@ -14,6 +14,8 @@ pub struct Material {
     pub emission: Textured<Rgb>,
     /// Where it is there at all.
     pub alpha: Alpha,
+    /// Light that goes through it.
+    pub transmission: Option<Transmission>,
     /// Bends shading normals.
     pub normal_map: Option<NormalMap>,
     /// Whether camera and mirror rays see it from behind, too. Shadow rays always do.
@@ -135,6 +137,28 @@ pub struct NormalMap {
     pub scale: f32,
 }
 
+/// Light that goes through a surface and what lies behind it (KHR_materials_transmission, _ior, _volume, _dispersion).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transmission {
+    /// How much of the light that would be diffuse goes through instead, 0..1; a texture's red multiplies it.
+    pub share: Textured<f32>,
+    /// The index of refraction of what lies behind the surface.
+    pub ior: f32,
+    /// 20 divided by Abbe's number; 0 bends every colour alike.
+    pub dispersion: f32,
+    /// What lies behind the surface, up to the surface where light leaves it; `None` where the surface is a thin sheet.
+    pub volume: Option<Volume>,
+}
+
+/// What light loses on its way through a body (KHR_materials_volume).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Volume {
+    /// What white light has become after the distance.
+    pub attenuation_color: Rgb,
+    /// In the scene's unit; infinity where nothing is lost.
+    pub attenuation_distance: f32,
+}
+
 impl Material {
     /// A double-sided matt surface without texture.
     pub fn matt(name: impl Into<String>, diffuse: Rgb) -> Material {
@@ -150,6 +174,7 @@ impl Material {
             model: Model::Phong(phong),
             emission: Textured::uniform(Rgb::BLACK),
             alpha: Alpha::OPAQUE,
+            transmission: None,
             normal_map: None,
             double_sided: true,
         }
@@ -177,6 +202,9 @@ impl Material {
         };
         let of_all = [
             self.emission.texture.as_ref(),
+            self.transmission
+                .as_ref()
+                .and_then(|t| t.share.texture.as_ref()),
             self.alpha.coverage.texture.as_ref(),
             self.normal_map.as_ref().map(|map| &map.texture),
         ];
@@ -200,6 +228,9 @@ impl Material {
         };
         let of_all = [
             self.emission.texture.as_mut(),
+            self.transmission
+                .as_mut()
+                .and_then(|t| t.share.texture.as_mut()),
             self.alpha.coverage.texture.as_mut(),
             self.normal_map.as_mut().map(|map| &mut map.texture),
         ];

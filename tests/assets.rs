@@ -174,7 +174,8 @@ fn the_cube_is_what_this_file_makes() {
 #[test]
 fn the_same_cube_as_gltf_glb_and_obj_is_the_same_scene() {
     let scenes = ["cube.gltf", "cube.glb", "cube.obj"].map(|name| {
-        let opened = load::open(&asset(name)).unwrap_or_else(|error| panic!("{error}"));
+        let opened = load::open(&asset(name), &load::Options::default())
+            .unwrap_or_else(|error| panic!("{error}"));
         let (scene, _) = opened
             .scene(0.0, &picture::viewpoint(1.0))
             .unwrap_or_else(|error| panic!("{error}"));

@@ -78,7 +78,7 @@ fn decoded(png: &[u8]) -> RgbImage {
 }
 
 fn opened(path: &str) -> Asset {
-    load::open(&project(path)).unwrap_or_else(|error| panic!("{error}"))
+    load::open(&project(path), &load::Options::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn scene_of(path: &str) -> Scene {

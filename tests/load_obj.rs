@@ -4,7 +4,7 @@
 
 use glam::{Vec2, Vec3};
 use luch::color::Rgb;
-use luch::load::{Model, obj};
+use luch::load::{self, Model, obj};
 use luch::material::{AlphaChannel, AlphaMode, Material, Model as Shading, Phong};
 use luch::mesh::Mesh;
 use luch::texture::{Encoding, Wrap};
@@ -34,13 +34,13 @@ fn open_with(obj: impl AsRef<[u8]>, beside: &[(&str, &[u8])]) -> Model {
     let folder = folder(beside);
     let path = folder.path().join("model.obj");
     std::fs::write(&path, obj).unwrap();
-    obj::open(&path).unwrap()
+    obj::open(&path, &load::Options::default()).unwrap()
 }
 
 /// What stands after the file's name.
 fn problem(obj: impl AsRef<[u8]>) -> String {
     let folder = folder(&[("model.obj", obj.as_ref())]);
-    let error = obj::open(&folder.path().join("model.obj")).unwrap_err();
+    let error = obj::open(&folder.path().join("model.obj"), &load::Options::default()).unwrap_err();
     let text = error.to_string();
     text.split_once("model.obj: ").unwrap().1.to_owned()
 }
@@ -296,7 +296,9 @@ fn nothing_to_draw_is_an_error() {
     }
     assert_eq!(problem(TRIANGLE.replace("1 0 0", "1e400 0 0")), nothing);
     let folder = folder(&[]);
-    let error = obj::open(folder.path()).unwrap_err().to_string();
+    let error = obj::open(folder.path(), &load::Options::default())
+        .unwrap_err()
+        .to_string();
     assert!(error.ends_with("is a folder, expected a file"), "{error}");
 }
 

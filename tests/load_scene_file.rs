@@ -9,7 +9,7 @@ use luch::camera::{Camera, Clip, Fov, Projection};
 use luch::color::Rgb;
 use luch::light::{Falloff, Light, LightKind};
 use luch::load::scene_file::{open, parse};
-use luch::load::{Asset, CameraSource, PictureDefaults};
+use luch::load::{Asset, CameraSource, Options, PictureDefaults};
 use luch::material::{Alpha, Material, Model};
 use luch::shade::Shading;
 use luch::texture::Checker;
@@ -35,7 +35,7 @@ material = \"red\"
 const NEXT: usize = 10;
 
 fn scene(text: &str) -> Result<Asset, String> {
-    parse(text, Path::new("scene.toml")).map_err(|error| error.to_string())
+    parse(text, Path::new("scene.toml"), &Options::default()).map_err(|error| error.to_string())
 }
 
 fn error(text: &str) -> String {
@@ -295,7 +295,12 @@ fn an_opened_scene_file_is_the_first_file_that_was_read() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("scene.toml");
     fs::write(&file, LEAST).expect("writable");
-    assert_eq!(open(&file).map(|asset| asset.files).ok(), Some(vec![file]));
+    assert_eq!(
+        open(&file, &Options::default())
+            .map(|asset| asset.files)
+            .ok(),
+        Some(vec![file])
+    );
 }
 
 #[test]
@@ -307,7 +312,7 @@ fn the_papers_scenes_are_read() {
         ("figure-5-1-sample.toml", 2, 1),
         ("figure-5-16-samples.toml", 2, 16),
     ] {
-        let asset = open(&scenes.join(name)).expect(name);
+        let asset = open(&scenes.join(name), &Options::default()).expect(name);
         assert_eq!(asset.spheres.len(), spheres, "{name}");
         assert_eq!(asset.picture.samples, Some(samples), "{name}");
         // What the paper gives.

@@ -153,7 +153,7 @@ fn words(panic: &(dyn Any + Send)) -> String {
 }
 
 fn drawn(file: &Path, side: u32) -> Result<Drawn, String> {
-    let asset = load::open(file).map_err(|error| error.to_string())?;
+    let asset = load::open(file, &load::Options::default()).map_err(|error| error.to_string())?;
     let warnings = asset.warnings.iter().map(ToString::to_string).collect();
     let (scene, _) = asset
         .scene(0.0, &picture::viewpoint(1.0))

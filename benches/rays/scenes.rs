@@ -82,7 +82,7 @@ fn open(file: &Path) -> Result<Scene, String> {
         background: None,
         exposure: None,
     };
-    let asset = load::open(file).map_err(|error| error.to_string())?;
+    let asset = load::open(file, &load::Options::default()).map_err(|error| error.to_string())?;
     let (scene, _) = asset
         .scene(0.0, &viewpoint)
         .map_err(|error| error.to_string())?;

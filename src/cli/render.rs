@@ -40,8 +40,8 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
 
     let start = Instant::now();
     let asset = match input {
-        Some(path) => load::open(path),
-        None => load::scene_file::parse(FIGURE_4, name),
+        Some(path) => load::open(path, &load::Options::default()),
+        None => load::scene_file::parse(FIGURE_4, name, &load::Options::default()),
     };
     let asset = asset.map_err(Failure::usage_or_scene)?;
     outputs.spare(&asset.files)?;

@@ -24,7 +24,7 @@ mod primitives;
 mod textures;
 mod uri;
 
-use super::{Facts, Model, Warnings, files};
+use super::{Facts, Model, Options, Warnings, files};
 use crate::Error;
 use buffers::Buffers;
 use document::{Document, one_line};
@@ -44,11 +44,11 @@ const BRIGHTEST: f32 = 1e18;
 ///
 /// The file or one of its buffers cannot be read or is malformed, it requires an extension that luch lacks, or it has
 /// nothing to draw. An image that cannot be read is a warning.
-pub fn open(path: &Path) -> Result<Model, Error> {
+pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
     let bytes = files::read(path)?;
     let mut warnings = Warnings::default();
     let container = container::open(path, &bytes, &mut warnings)?;
-    let document = Document::parse(path, container.json, &mut warnings)?;
+    let document = Document::parse(path, container.json, options, &mut warnings)?;
     let extensions = extensions::check(&document, &mut warnings)?;
     let buffers = Buffers::read(&document, container.binary)?;
 

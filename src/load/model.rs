@@ -125,8 +125,30 @@ pub struct ExtensionFacts {
     pub name: String,
     /// Whether the file says that it makes no sense without.
     pub required: bool,
-    /// Whether luch does what it asks.
-    pub honoured: bool,
+    /// What luch does with it.
+    pub treatment: Treatment,
+}
+
+/// What luch does with what a file asks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Treatment {
+    /// What it asks.
+    Honoured,
+    /// What comes near to it in a Whitted renderer.
+    Approximated,
+    /// Nothing.
+    Ignored,
+}
+
+impl Treatment {
+    /// As `luch info` calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Treatment::Honoured => "honoured",
+            Treatment::Approximated => "approximated",
+            Treatment::Ignored => "ignored",
+        }
+    }
 }
 
 impl Model {

@@ -27,7 +27,7 @@ mod reader;
 mod text;
 mod textures;
 
-use super::{Facts, Model, ModelMesh, Node, Part, Warnings, files, tangents};
+use super::{Facts, Model, ModelMesh, Node, Options, Part, Warnings, files, tangents};
 use crate::Error;
 use geometry::Geometry;
 use libraries::{folder_of, read_libraries};
@@ -44,7 +44,7 @@ const MOST_BYTES: usize = u32::MAX as usize;
 /// # Errors
 ///
 /// The file cannot be read, has a line that makes no sense, or nothing to draw. A missing MTL or texture is a warning.
-pub fn open(path: &Path) -> Result<Model, Error> {
+pub fn open(path: &Path, _options: &Options) -> Result<Model, Error> {
     let bytes = files::read(path)?;
     if bytes.len() > MOST_BYTES {
         return Err(Error::Unsupported {

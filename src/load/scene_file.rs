@@ -14,7 +14,7 @@ mod shapes;
 mod source;
 mod table;
 
-use super::{Asset, CameraSource, Model, files, gltf, obj};
+use super::{Asset, CameraSource, Model, Options, files, gltf, obj};
 use crate::Error;
 use materials::Materials;
 use models::Models;
@@ -41,9 +41,9 @@ const TABLES: [&str; 9] = [
 ///
 /// The file or a model it names cannot be read, is not UTF-8 or TOML, has a key or a value that makes no sense, draws
 /// nothing, or says neither where to look from nor names a model to look at.
-pub fn open(path: &Path) -> Result<Asset, Error> {
+pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
     let text = source::decode(path, files::read(path)?)?;
-    let mut asset = parse(&text, path)?;
+    let mut asset = parse(&text, path, options)?;
     asset.files.insert(0, path.to_owned());
     Ok(asset)
 }
@@ -53,8 +53,8 @@ pub fn open(path: &Path) -> Result<Asset, Error> {
 /// # Errors
 ///
 /// Those of [`open`], as far as they are not about the file itself.
-pub fn parse(text: &str, path: &Path) -> Result<Asset, Error> {
-    parse_with(text, path, open_model)
+pub fn parse(text: &str, path: &Path, options: &Options) -> Result<Asset, Error> {
+    parse_with(text, path, |path| open_model(path, options))
 }
 
 /// [`parse`] with another way to open a model.
@@ -106,11 +106,11 @@ fn parse_with(
 }
 
 /// Opens a model by its extension; `None` where that is none of a model's.
-fn open_model(path: &Path) -> Option<Result<Model, Error>> {
+fn open_model(path: &Path, options: &Options) -> Option<Result<Model, Error>> {
     let extension = path.extension()?.to_string_lossy().to_lowercase();
     match extension.as_str() {
-        "gltf" | "glb" => Some(gltf::open(path)),
-        "obj" => Some(obj::open(path)),
+        "gltf" | "glb" => Some(gltf::open(path, options)),
+        "obj" => Some(obj::open(path, options)),
         _ => None,
     }
 }

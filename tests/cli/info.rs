@@ -95,8 +95,8 @@ fn everything_in_a_model_is_told_as_json() {
             "cameras": ["door"],
             "animations": ["run"],
             "extensions": [
-                {"name": "KHR_lights_punctual", "required": true, "honoured": true},
-                {"name": "ACME_x", "required": false, "honoured": false},
+                {"name": "KHR_lights_punctual", "required": true, "treatment": "honoured"},
+                {"name": "ACME_x", "required": false, "treatment": "ignored"},
             ],
         }],
         "instances": 2,

@@ -1,7 +1,7 @@
 //! A glTF file that a test writes.
 
 use glam::Vec3;
-use luch::load::{Model, gltf};
+use luch::load::{self, Model, gltf};
 use serde_json::{Value, json};
 use std::fs;
 use tempfile::TempDir;
@@ -104,7 +104,8 @@ impl File {
         fs::write(folder.path().join("model.bin"), &self.bytes).map_err(|e| e.to_string())?;
         fs::write(&path, self.json.to_string()).map_err(|e| e.to_string())?;
         let prefix = format!("{}/", folder.path().display());
-        gltf::open(&path).map_err(|error| error.to_string().replace(&prefix, ""))
+        gltf::open(&path, &load::Options::default())
+            .map_err(|error| error.to_string().replace(&prefix, ""))
     }
 
     /// The same, for a file that must load.

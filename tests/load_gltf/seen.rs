@@ -60,7 +60,7 @@ fn asset(mut file: File) -> Asset {
     file.json["buffers"] = json!([{"uri": "model.bin", "byteLength": file.bytes.len()}]);
     fs::write(folder.path().join("model.bin"), &file.bytes).expect("a buffer");
     fs::write(&path, file.json.to_string()).expect("a file");
-    load::open(&path).expect("the file is right")
+    load::open(&path, &load::Options::default()).expect("the file is right")
 }
 
 /// The pixels of a picture of the file, row by row: linear light and alpha.

@@ -1,7 +1,7 @@
 //! Files that are no TOML, or no text at all.
 
 use super::error;
-use luch::load::scene_file::open;
+use luch::load::{Options, scene_file::open};
 use std::fs;
 use std::path::Path;
 
@@ -73,7 +73,7 @@ fn the_file_itself_can_be_wrong() {
     let file = folder.path().join("scene.toml");
     let shown = file.display();
     let message = |path: &Path| {
-        open(path)
+        open(path, &Options::default())
             .err()
             .map(|error| error.to_string())
             .unwrap_or_default()

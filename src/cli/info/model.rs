@@ -37,7 +37,7 @@ struct Texture {
 struct Extension {
     name: String,
     required: bool,
-    honoured: bool,
+    treatment: &'static str,
 }
 
 impl ModelInfo {
@@ -53,7 +53,7 @@ impl ModelInfo {
         let extension = |e: &ExtensionFacts| Extension {
             name: e.name.clone(),
             required: e.required,
-            honoured: e.honoured,
+            treatment: e.treatment.name(),
         };
         ModelInfo {
             file: print::path(&model.file),
@@ -117,10 +117,9 @@ impl Extension {
         let Extension {
             name,
             required,
-            honoured,
+            treatment,
         } = self;
         let required = if *required { "required" } else { "used" };
-        let honoured = if *honoured { "honoured" } else { "ignored" };
-        format!("{name} ({required}, {honoured})")
+        format!("{name} ({required}, {treatment})")
     }
 }

@@ -40,7 +40,7 @@ impl Subject {
             let name = format!("{}:{count}", shape.name());
             return Ok(Subject::of_scene(&name, scene));
         }
-        let asset = load::open(path).map_err(Failure::usage_or_scene)?;
+        let asset = load::open(path, &load::Options::default()).map_err(Failure::usage_or_scene)?;
         let name = path.file_name().unwrap_or(path.as_os_str());
         let hash = hash_of(&asset.files).map_err(|error| {
             Failure::usage_or_scene(format!(
@@ -54,7 +54,8 @@ impl Subject {
     /// The paper's figure 4.
     pub(super) fn figure_4(size: [u32; 2]) -> Result<Subject, Failure> {
         let name = Path::new(FIGURE_4_NAME);
-        let asset = load::scene_file::parse(FIGURE_4, name).map_err(Failure::usage_or_scene)?;
+        let asset = load::scene_file::parse(FIGURE_4, name, &load::Options::default())
+            .map_err(Failure::usage_or_scene)?;
         Subject::of_asset(&asset, FIGURE_4_NAME, String::new(), None, size)
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Parts are called by name, or by their index in the file's own arrays, which count from 0.
 
-use super::{Warnings, json};
+use super::{Options, Warnings, json};
 use crate::Error;
 use gltf::json::Root;
 use serde_json::Value;
@@ -15,6 +15,8 @@ pub(super) struct Document {
     pub(super) file: PathBuf,
     /// The JSON, typed.
     pub(super) root: Root,
+    /// What the user says of reading it.
+    pub(super) options: Options,
 }
 
 impl Document {
@@ -26,6 +28,7 @@ impl Document {
     pub(super) fn parse(
         file: &Path,
         json: &[u8],
+        options: &Options,
         warnings: &mut Warnings,
     ) -> Result<Document, Error> {
         let text = std::str::from_utf8(json).map_err(|e| {
@@ -38,8 +41,11 @@ impl Document {
         });
         let root = json::parse(file, text)?;
         check_version(file, &root)?;
-        let file = file.to_owned();
-        Ok(Document { file, root })
+        Ok(Document {
+            file: file.to_owned(),
+            root,
+            options: options.clone(),
+        })
     }
 
     /// An [`Error::Malformed`] of this file.
@@ -141,6 +147,7 @@ mod tests {
         Document::parse(
             Path::new("a.gltf"),
             text.as_bytes(),
+            &Options::default(),
             &mut Warnings::default(),
         )
         .map_err(|e| e.to_string())
@@ -181,7 +188,12 @@ mod tests {
         ] {
             assert_eq!(parse(text).err().as_deref(), Some(expected));
         }
-        let latin = Document::parse(Path::new("a.gltf"), b"{\"\xe9\"}", &mut Warnings::default());
+        let latin = Document::parse(
+            Path::new("a.gltf"),
+            b"{\"\xe9\"}",
+            &Options::default(),
+            &mut Warnings::default(),
+        );
         assert_eq!(
             latin.err().map(|e| e.to_string()),
             Some("a.gltf: is not UTF-8 at byte 2 of its JSON".into())

@@ -3,17 +3,23 @@
 use super::document::{Document, one_line};
 use super::{Warnings, emissive_strength, lights_punctual, materials_unlit};
 use crate::Error;
-use crate::load::ExtensionFacts;
+use crate::load::{ExtensionFacts, Treatment};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use std::collections::HashSet;
 
-/// The extensions that luch honours.
-const HONOURED: [&str; 3] = [
-    emissive_strength::NAME,
-    lights_punctual::NAME,
-    materials_unlit::NAME,
+/// The extensions that luch knows, and what it does with each.
+const KNOWN: &[(&str, Treatment)] = &[
+    (emissive_strength::NAME, Treatment::Honoured),
+    (lights_punctual::NAME, Treatment::Honoured),
+    (materials_unlit::NAME, Treatment::Honoured),
 ];
+
+/// What luch does with an extension.
+fn treatment(name: &str) -> Treatment {
+    let known = KNOWN.iter().find(|(known, _)| *known == name);
+    known.map_or(Treatment::Ignored, |&(_, treatment)| treatment)
+}
 
 /// Each extension that the file uses, in its order.
 ///
@@ -29,7 +35,8 @@ pub(super) fn check(
         .extensions_required
         .iter()
         .map(String::as_str)
-        .filter(|name| !HONOURED.contains(name))
+        .filter(|name| treatment(name) == Treatment::Ignored)
+        .filter(|name| !document.options.allow.iter().any(|allowed| allowed == name))
         .collect();
     if let Some(first) = missing.first() {
         let (which, way_out) = match missing.len() {
@@ -50,14 +57,14 @@ pub(super) fn check(
         if !known.insert(name) {
             continue;
         }
-        let honoured = HONOURED.contains(&name.as_str());
-        if !honoured {
+        let treatment = treatment(name);
+        if treatment == Treatment::Ignored {
             warnings.add(format!("uses {}, which is ignored", one_line(name)));
         }
         facts.push(ExtensionFacts {
             name: name.clone(),
             required: required.contains(name),
-            honoured,
+            treatment,
         });
     }
     Ok(facts)

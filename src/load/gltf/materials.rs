@@ -108,6 +108,7 @@ impl Reader<'_, '_> {
             model,
             emission: self.emission(json)?,
             alpha: self.alpha(json, coverage),
+            transmission: None,
             normal_map: self.normal_map(json)?,
             double_sided: json.double_sided,
         })

@@ -88,6 +88,7 @@ pub(super) fn material(mtl: &MtlMaterial, textures: &mut Textures) -> Material {
         model,
         emission,
         alpha: alpha(mtl, textures),
+        transmission: None,
         normal_map: textures.normals(mtl.normal_map.as_ref(), mtl.bump_map.as_ref()),
         double_sided: true,
     }

@@ -138,6 +138,7 @@ fn material(table: &Table<'_>) -> Result<Material, Error> {
         model: Model::Phong(phong),
         emission: color("emission", Rgb::BLACK)?,
         alpha: Alpha::OPAQUE,
+        transmission: None,
         normal_map: None,
         double_sided: true,
     })
