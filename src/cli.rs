@@ -1,11 +1,14 @@
 //! The command line: one file a command, and the only place that prints.
 
 mod arguments;
+mod asks;
+mod cameras;
 mod info;
 mod interrupt;
 mod outputs;
 mod print;
 mod progress;
+mod reading;
 mod render;
 mod study;
 mod summary;

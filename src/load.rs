@@ -4,7 +4,9 @@ pub mod gltf;
 pub mod obj;
 pub mod scene_file;
 
+mod analytic;
 mod asset;
+mod choice;
 mod exposure;
 mod files;
 mod images;
@@ -14,12 +16,13 @@ mod tangents;
 mod viewpoint;
 mod warnings;
 
+pub use analytic::{Analytic, AnalyticKind};
 pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
 pub use model::{
-    ExtensionFacts, Facts, Model, ModelCamera, ModelMesh, Node, Part, TextureFacts, Treatment,
+    Ask, Facts, Model, ModelCamera, ModelMesh, Node, Note, Part, TextureFacts, Treatment,
 };
 pub use options::{AnimationChoice, Options};
-pub use viewpoint::{CameraChoice, Choices, Viewpoint};
+pub use viewpoint::{CameraChoice, Choices, PlacedCamera, Viewpoint};
 pub use warnings::{Warning, Warnings};
 
 use crate::Error;
@@ -34,8 +37,8 @@ pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("toml") => scene_file::open(path, options),
-        Some("gltf" | "glb") => gltf::open(path, options).map(Asset::of_model),
-        Some("obj") => obj::open(path, options).map(Asset::of_model),
+        Some("gltf" | "glb") => gltf::open(path, options).map(Asset::from),
+        Some("obj") => obj::open(path, options).map(Asset::from),
         _ => {
             files::check(path)?;
             Err(Error::Unsupported {

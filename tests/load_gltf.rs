@@ -3,6 +3,7 @@
 mod facts;
 mod file;
 mod geometry;
+mod implicit_shapes;
 mod materials;
 mod nodes;
 mod seen;

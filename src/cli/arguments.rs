@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+use super::reading::Reading;
 use super::study::StudyArguments;
 use super::values::{self, BackgroundValue, Size, whole_number};
 use clap::builder::NonEmptyStringValueParser;
@@ -113,6 +114,10 @@ pub(super) struct RenderArguments {
     #[arg(long, value_enum, value_name = "MODEL")]
     pub(super) shading: Option<ShadingValue>,
 
+    /// List the model's cameras, and render nothing
+    #[arg(long)]
+    pub(super) list_cameras: bool,
+
     /// A camera of the model, by name or by index from 0
     #[arg(long, value_name = "NAME|INDEX", conflicts_with_all = ["eye", "target"], value_parser = NonEmptyStringValueParser::new())]
     pub(super) camera: Option<String>,
@@ -183,6 +188,9 @@ pub(super) struct RenderArguments {
     /// Print the summary as JSON
     #[arg(long)]
     pub(super) json: bool,
+
+    #[command(flatten)]
+    pub(super) reading: Reading,
 }
 
 impl RenderArguments {
@@ -199,7 +207,7 @@ pub(super) fn is_stdout(path: &Path) -> bool {
 
 /// Everything `luch info` can be told.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  luch info helmet.glb\n  luch info helmet.glb --json")]
+#[command(after_help = "Examples:\n  luch info helmet.glb\n  luch info helmet.glb --json\n  luch info shop.glb --scene Cellar")]
 pub(super) struct InfoArguments {
     /// A .glb, .gltf, .obj or .toml file
     pub(super) input: PathBuf,
@@ -211,6 +219,9 @@ pub(super) struct InfoArguments {
     /// Say the causes of an error
     #[arg(short, long)]
     pub(super) verbose: bool,
+
+    #[command(flatten)]
+    pub(super) reading: Reading,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

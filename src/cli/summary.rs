@@ -1,6 +1,7 @@
 //! What a render says of itself: in words, or as JSON.
 
 use super::arguments::RenderArguments;
+use super::asks::Asked;
 use super::{Failure, print};
 use indicatif::{HumanBytes, HumanCount};
 use luch::accel::Accel;
@@ -61,6 +62,8 @@ pub(super) struct Summary {
     exposure: f32,
     choices: Vec<String>,
     warnings: Vec<String>,
+    /// What the models ask for, by what luch does with it.
+    asks: Asked,
     scene: SceneCounts,
     bvh: Bvh,
     rays: Rays,
@@ -130,6 +133,7 @@ impl Summary {
             exposure: done.options.exposure,
             choices: done.choices.lines.clone(),
             warnings,
+            asks: Asked::of(asset),
             scene: SceneCounts {
                 triangles: u64::from(scene.primitive_count()) - (spheres + planes) as u64,
                 spheres,
@@ -171,13 +175,14 @@ impl Summary {
             render,
             write,
         } = self.seconds;
-        let mut lines = vec![
+        let mut lines: Vec<String> = self.asks.in_words().into_iter().collect();
+        lines.extend([
             format!("{}, {}", self.scene.in_words(), self.bvh.in_words()),
             self.rays.in_words(),
             format!(
                 "load {load:.2} s, build {build:.2} s, render {render:.2} s, write {write:.2} s"
             ),
-        ];
+        ]);
         lines.extend(self.outputs.iter().map(|output| format!("wrote {output}")));
         lines
     }

@@ -1,6 +1,6 @@
 //! What a file holds, before a choice of camera and time makes a scene of it.
 
-use super::viewpoint::{self, Choices, Viewpoint};
+use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
 use super::{Model, Warnings};
 use crate::Error;
 use crate::camera::Camera;
@@ -110,8 +110,15 @@ impl Asset {
         Ok((scene, choices))
     }
 
+    /// The cameras of its models, in the order in which a user may ask for them by index.
+    pub fn cameras(&self) -> Vec<PlacedCamera> {
+        viewpoint::cameras(self).collect()
+    }
+}
+
+impl From<Model> for Asset {
     /// A model by itself, at its own place.
-    pub(super) fn of_model(model: Model) -> Asset {
+    fn from(model: Model) -> Asset {
         Asset {
             file: model.file.clone(),
             is_scene_file: false,
@@ -168,6 +175,10 @@ impl PlacedModel {
                     name: name.clone(),
                     ..carried
                 });
+            }
+            if let Some(analytic) = &node.analytic {
+                let material = self.material.unwrap_or(first_material + analytic.material);
+                analytic.add_to(scene, &node.name, material, to_world);
             }
             let parts = node
                 .shape

@@ -6,6 +6,7 @@
 //! Parts of a file without a name are called by their index in it, from 0, as the file itself does.
 
 mod accessors;
+mod asks;
 mod base64;
 mod buffers;
 mod cameras;
@@ -13,12 +14,14 @@ mod container;
 mod document;
 mod emissive_strength;
 mod extensions;
+mod implicit_shapes;
 mod json;
 mod lights_punctual;
 mod materials;
 mod materials_unlit;
 mod meshes;
 mod nodes;
+mod notes;
 mod primitive_modes;
 mod primitives;
 mod textures;
@@ -28,6 +31,7 @@ use super::{Facts, Model, Options, Warnings, files};
 use crate::Error;
 use buffers::Buffers;
 use document::{Document, one_line};
+use implicit_shapes::Shapes;
 use nodes::Contents;
 use std::path::Path;
 use textures::Textures;
@@ -58,10 +62,13 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
     let geometry = meshes::all(&document, &buffers, &materials, &mut warnings)?;
     let (cameras, camera_indices) = compact(cameras::all(&document, &mut warnings));
     let (lights, light_indices) = compact(lights_punctual::all(&document, &mut warnings));
+    let has_meshes = geometry.shapes.iter().any(|shape| !shape.parts.is_empty());
+    let implicit = Shapes::read(&document, materials.len(), !has_meshes, &mut warnings);
     let contents = Contents {
         meshes: geometry.shapes.len(),
         cameras: &camera_indices,
         lights: &light_indices,
+        implicit: &implicit,
     };
     let tree = nodes::read(&document, &contents, &mut warnings)?;
 
@@ -75,7 +82,8 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
         lines: geometry.lines,
         textures: textures.facts,
         animations: root.animations.iter().map(|a| name(&a.name)).collect(),
-        extensions,
+        asks: asks::all(&document, extensions),
+        notes: notes::all(&document),
     };
     let own = [path.to_owned()];
     let mut model = Model {
@@ -105,7 +113,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
     if !model
         .placed_nodes()
         .iter()
-        .any(|(node, _)| node.shape.is_some_and(shows))
+        .any(|(node, _)| node.analytic.is_some() || node.shape.is_some_and(shows))
     {
         return Err(meshes::nothing_to_draw(&document, &geometry));
     }

@@ -1,6 +1,6 @@
 //! A model as its file has it: one shape for glTF and OBJ, before anything is placed.
 
-use super::Warnings;
+use super::{Analytic, Warnings};
 use crate::camera::Projection;
 use crate::light::Light;
 use crate::material::Material;
@@ -69,6 +69,8 @@ pub struct Node {
     pub to_parent: DAffine3,
     /// An index into the model's shapes.
     pub shape: Option<usize>,
+    /// A sphere or a plane.
+    pub analytic: Option<Analytic>,
     /// An index into the model's cameras.
     pub camera: Option<usize>,
     /// An index into the model's lights.
@@ -105,8 +107,10 @@ pub struct Facts {
     pub textures: Vec<TextureFacts>,
     /// Names of animations; empty strings where they have none.
     pub animations: Vec<String>,
-    /// Each extension the file uses, with what luch does about it.
-    pub extensions: Vec<ExtensionFacts>,
+    /// What the file asks for, with what luch does about it.
+    pub asks: Vec<Ask>,
+    /// What the file says beside the picture.
+    pub notes: Vec<Note>,
 }
 
 /// An image of a file.
@@ -118,15 +122,24 @@ pub struct TextureFacts {
     pub size: Option<(u32, u32)>,
 }
 
-/// An extension that a file uses.
+/// Something that a file asks for: an extension, or a part of its format that not every renderer has.
 #[derive(Clone, Debug)]
-pub struct ExtensionFacts {
-    /// As in `KHR_materials_unlit`.
-    pub name: String,
+pub struct Ask {
+    /// As in `KHR_materials_unlit` or `texture minification filters`.
+    pub what: String,
     /// Whether the file says that it makes no sense without.
     pub required: bool,
     /// What luch does with it.
     pub treatment: Treatment,
+}
+
+/// What a file says beside the picture: `extras` and metadata.
+#[derive(Clone, Debug)]
+pub struct Note {
+    /// Of what, as in `node "chair"`.
+    pub place: String,
+    /// In the file's words.
+    pub json: String,
 }
 
 /// What luch does with what a file asks.
@@ -134,18 +147,18 @@ pub struct ExtensionFacts {
 pub enum Treatment {
     /// What it asks.
     Honoured,
-    /// What comes near to it in a Whitted renderer.
-    Approximated,
+    /// What comes near to it in a Whitted renderer, in these words.
+    Approximated(&'static str),
     /// Nothing.
     Ignored,
 }
 
 impl Treatment {
-    /// As `luch info` calls it.
+    /// One word.
     pub fn name(self) -> &'static str {
         match self {
             Treatment::Honoured => "honoured",
-            Treatment::Approximated => "approximated",
+            Treatment::Approximated(_) => "approximated",
             Treatment::Ignored => "ignored",
         }
     }

@@ -21,16 +21,17 @@ fn facts_tell_of_scenes_animations_and_extensions() {
         (facts.scenes.as_slice(), facts.animations.as_slice()),
         (&["room".to_owned()][..], &["run".to_owned()][..])
     );
-    let extensions: Vec<_> = facts
-        .extensions
+    let asks: Vec<_> = facts
+        .asks
         .iter()
-        .map(|e| (e.name.as_str(), e.required, e.treatment.name()))
+        .map(|ask| (ask.what.as_str(), ask.required, ask.treatment.name()))
         .collect();
     assert_eq!(
-        extensions,
+        asks,
         [
             ("KHR_materials_unlit", true, "honoured"),
-            ("ACME_x", false, "ignored")
+            ("ACME_x", false, "ignored"),
+            ("animations", false, "honoured"),
         ]
     );
     assert_eq!(warnings(&model), ["uses ACME_x, which is ignored"]);

@@ -30,11 +30,11 @@ fn every_wrong_file_has_its_own_words() {
     let cases: &[(Break, &str)] = &[
         (
             |f| f.json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]),
-            "model.gltf: needs KHR_draco_mesh_compression, which is not supported; re-export without compression",
+            "model.gltf: needs KHR_draco_mesh_compression, which is not supported; re-export without compression, or go on without with --allow KHR_draco_mesh_compression",
         ),
         (
             |f| f.json["extensionsRequired"] = json!(["ACME_x", "ACME_y"]),
-            "model.gltf: needs ACME_x and ACME_y, which are not supported; re-export without them",
+            "model.gltf: needs ACME_x and ACME_y, which are not supported; re-export without them, or go on without with --allow ACME_x --allow ACME_y",
         ),
         (
             |f| f.json["asset"]["version"] = "1.0".into(),

@@ -1,9 +1,11 @@
 //! Which extensions luch honours, and what a file asks of them. One more is one more file and one more line here.
 
 use super::document::{Document, one_line};
-use super::{Warnings, emissive_strength, lights_punctual, materials_unlit};
+use super::{
+    Warnings, emissive_strength, implicit_shapes, lights_punctual, materials_unlit, notes,
+};
 use crate::Error;
-use crate::load::{ExtensionFacts, Treatment};
+use crate::load::{Ask, Treatment};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use std::collections::HashSet;
@@ -11,8 +13,11 @@ use std::collections::HashSet;
 /// The extensions that luch knows, and what it does with each.
 const KNOWN: &[(&str, Treatment)] = &[
     (emissive_strength::NAME, Treatment::Honoured),
+    (implicit_shapes::NAME, Treatment::Honoured),
     (lights_punctual::NAME, Treatment::Honoured),
     (materials_unlit::NAME, Treatment::Honoured),
+    (notes::NAMES[0], Treatment::Approximated(notes::HOW)),
+    (notes::NAMES[1], Treatment::Approximated(notes::HOW)),
 ];
 
 /// What luch does with an extension.
@@ -26,10 +31,7 @@ fn treatment(name: &str) -> Treatment {
 /// # Errors
 ///
 /// The file says that it makes no sense without one that luch lacks.
-pub(super) fn check(
-    document: &Document,
-    warnings: &mut Warnings,
-) -> Result<Vec<ExtensionFacts>, Error> {
+pub(super) fn check(document: &Document, warnings: &mut Warnings) -> Result<Vec<Ask>, Error> {
     let root = &document.root;
     let missing: Vec<&str> = root
         .extensions_required
@@ -44,15 +46,16 @@ pub(super) fn check(
             _ => ("which are", "re-export without them"),
         };
         let names: Vec<String> = missing.iter().take(8).map(|name| one_line(name)).collect();
+        let allow = names.join(" --allow ");
         return Err(Error::Unsupported {
             file: document.file.clone(),
             what: format!("needs {}, {which} not supported", names.join(" and ")),
-            way_out: way_out.into(),
+            way_out: format!("{way_out}, or go on without with --allow {allow}"),
         });
     }
     let required: HashSet<&String> = root.extensions_required.iter().collect();
     let mut known = HashSet::new();
-    let mut facts: Vec<ExtensionFacts> = Vec::new();
+    let mut asks: Vec<Ask> = Vec::new();
     for name in root.extensions_used.iter().chain(&root.extensions_required) {
         if !known.insert(name) {
             continue;
@@ -61,13 +64,13 @@ pub(super) fn check(
         if treatment == Treatment::Ignored {
             warnings.add(format!("uses {}, which is ignored", one_line(name)));
         }
-        facts.push(ExtensionFacts {
-            name: name.clone(),
+        asks.push(Ask {
+            what: name.clone(),
             required: required.contains(name),
             treatment,
         });
     }
-    Ok(facts)
+    Ok(asks)
 }
 
 /// How a file comes out without an extension.

@@ -5,9 +5,10 @@
 
 use super::Warnings;
 use super::document::{Document, named};
+use super::implicit_shapes::Shapes;
 use super::{extensions, lights_punctual};
 use crate::Error;
-use crate::load::Node;
+use crate::load::{Node, choice};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use gltf::json::Node as NodeJson;
 
@@ -25,13 +26,15 @@ pub(super) struct Contents<'a> {
     pub(super) meshes: usize,
     pub(super) cameras: &'a [Option<usize>],
     pub(super) lights: &'a [Option<usize>],
+    pub(super) implicit: &'a Shapes,
 }
 
-/// Reads the nodes of a file and its scene: the one that it names, else its first, else every node without a parent.
+/// Reads the nodes of a file and its scene: the one that the user asks for or the file names, else its first, else every
+/// node without a parent.
 ///
 /// # Errors
 ///
-/// A node is below itself, or an index names nothing.
+/// A node is below itself, an index names nothing, or there is no scene as the user asks for.
 pub(super) fn read(
     document: &Document,
     contents: &Contents,
@@ -123,13 +126,21 @@ fn roots(
     warnings: &mut Warnings,
 ) -> Result<Vec<usize>, Error> {
     let root = &document.root;
-    let scene = match root.scene {
-        Some(_) if root.scenes.is_empty() => {
+    let scene = match (&document.options.scene, root.scene) {
+        (Some(wanted), _) => {
+            let names = root.scenes.iter().map(|scene| scene.name.as_deref());
+            let names: Vec<&str> = names.map(Option::unwrap_or_default).collect();
+            let found = choice::find("scene", wanted, &names);
+            Some(found.map_err(|problem| document.malformed("", problem))?)
+        }
+        (None, Some(_)) if root.scenes.is_empty() => {
             warnings.add("names a scene and has none: every node without a parent is drawn");
             None
         }
-        Some(index) => Some(document.checked("", "scene", index.value(), root.scenes.len())?),
-        None => (!root.scenes.is_empty()).then_some(0),
+        (None, Some(index)) => {
+            Some(document.checked("", "scene", index.value(), root.scenes.len())?)
+        }
+        (None, None) => (!root.scenes.is_empty()).then_some(0),
     };
     let Some(scene) = scene.and_then(|index| Some((index, root.scenes.get(index)?))) else {
         return Ok((0..parents.len())
@@ -210,6 +221,9 @@ fn one(
         children,
         to_parent: to_parent(json, warnings),
         shape,
+        analytic: contents
+            .implicit
+            .of_node(document, others, &place(), warnings)?,
         camera,
         light,
     })

@@ -5,7 +5,7 @@ use super::{CameraChoice, Choices, Viewpoint};
 use crate::Error;
 use crate::camera::{Camera, Clip, Fov, Projection};
 use crate::framing;
-use crate::load::{Asset, CameraSource};
+use crate::load::{Asset, CameraSource, choice};
 use crate::scene::SceneDescription;
 use glam::DVec3;
 
@@ -33,8 +33,7 @@ fn chosen_camera(
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
     let of_file = |name: &str| {
-        camera_of_model(asset, name)
-            .ok_or_else(|| Error::malformed(&asset.file, "", no_such_camera(asset, name)))
+        camera_of_model(asset, name).map_err(|problem| Error::malformed(&asset.file, "", problem))
     };
     match (&viewpoint.camera, &asset.camera) {
         (CameraChoice::Given(camera), _) => Ok(*camera),
@@ -57,15 +56,19 @@ fn chosen_camera(
     }
 }
 
-/// A camera in its place, the name it goes by, and that of its node.
-struct PlacedCamera {
-    name: String,
-    node: String,
-    camera: Camera,
+/// A camera of a model in its place.
+#[derive(Clone, Debug)]
+pub struct PlacedCamera {
+    /// Its own name or, if it has none, its node's; may be empty.
+    pub name: String,
+    /// Its node's name; may be empty.
+    pub node: String,
+    /// The camera itself.
+    pub camera: Camera,
 }
 
 /// Every camera that a node of a model places.
-fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
+pub(in crate::load) fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
     asset.models.iter().flat_map(|placed| {
         let nodes = placed.model.placed_nodes();
         nodes.into_iter().filter_map(move |(node, to_model)| {
@@ -101,26 +104,17 @@ fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
     })
 }
 
-fn camera_of_model(asset: &Asset, wanted: &str) -> Option<Camera> {
-    let by_name = cameras(asset).find(|placed| placed.name == wanted || placed.node == wanted);
-    let by_index = || cameras(asset).nth(wanted.parse().ok()?);
-    by_name.or_else(by_index).map(|placed| placed.camera)
-}
-
-fn no_such_camera(asset: &Asset, wanted: &str) -> String {
-    const SHOWN: usize = 8;
-    let called = |(index, PlacedCamera { name, .. }): (usize, PlacedCamera)| match name.as_str() {
-        "" => index.to_string(),
-        name => format!("{index} \"{name}\""),
+/// The camera that goes by a name, its own or else its node's, or that has this index.
+fn camera_of_model(asset: &Asset, wanted: &str) -> Result<Camera, String> {
+    let cameras: Vec<PlacedCamera> = cameras(asset).collect();
+    let names: Vec<&str> = cameras.iter().map(|placed| placed.name.as_str()).collect();
+    let by_node = || cameras.iter().position(|placed| placed.node == wanted);
+    let index = match choice::find("camera", wanted, &names) {
+        Ok(index) => index,
+        Err(problem) => by_node().ok_or(problem)?,
     };
-    let known: Vec<String> = (0..).zip(cameras(asset)).map(called).collect();
-    let there = match known.as_slice() {
-        [] => "the file has none".into(),
-        [only] => format!("there is {only}"),
-        [first @ .., last] if first.len() < SHOWN => {
-            format!("there are {} and {last}", first.join(", "))
-        }
-        _ => format!("there are {}, ...", known[..SHOWN].join(", ")),
-    };
-    format!("there is no camera \"{wanted}\"; {there}")
+    cameras
+        .get(index)
+        .map(|placed| placed.camera)
+        .ok_or_else(|| format!("there is no camera {index}"))
 }
