@@ -6,6 +6,7 @@ mod interrupt;
 mod outputs;
 mod print;
 mod progress;
+mod reading;
 mod render;
 mod study;
 mod summary;

@@ -5,9 +5,11 @@ pub mod obj;
 pub mod scene_file;
 
 mod asset;
+mod budget;
 mod exposure;
 mod files;
 mod images;
+mod memory;
 mod model;
 mod options;
 mod tangents;
@@ -15,6 +17,7 @@ mod viewpoint;
 mod warnings;
 
 pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
+pub use budget::{Budget, OutOfMemory};
 pub use model::{
     ExtensionFacts, Facts, Model, ModelCamera, ModelMesh, Node, Part, TextureFacts, Treatment,
 };
@@ -32,10 +35,12 @@ use std::path::Path;
 /// The file cannot be read, is malformed, asks for what luch does not do, or has nothing to draw.
 pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let budget = Budget::of(options);
+    let of_model = |model| Asset::of_model(model, budget.clone());
     match extension.as_deref() {
         Some("toml") => scene_file::open(path, options),
-        Some("gltf" | "glb") => gltf::open(path, options).map(Asset::of_model),
-        Some("obj") => obj::open(path, options).map(Asset::of_model),
+        Some("gltf" | "glb") => gltf::open_within(path, options, &budget).map(of_model),
+        Some("obj") => obj::open_within(path, options, &budget).map(of_model),
         _ => {
             files::check(path)?;
             Err(Error::Unsupported {

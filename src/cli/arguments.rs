@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+use super::reading::Reading;
 use super::study::StudyArguments;
 use super::values::{self, BackgroundValue, Size, whole_number};
 use clap::builder::NonEmptyStringValueParser;
@@ -67,6 +68,9 @@ Examples:
   luch render chair.obj --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
   luch render helmet.glb -o - | viewer
   luch render helmet.glb -o helmet.png --json > helmet.json
+
+Limits: 4 GiB a file; 268435456 pixels an image; 2147483647 triangles and other primitives, each as often as it is placed;
+4 GiB a picture in memory; of everything else, such as vertices and nodes, what --max-memory holds.
 
 Environment: LUCH_ISA=scalar|avx2|avx512 chooses the kernels that search [default: the widest that the machine has]; all of
 them give the same picture.
@@ -172,6 +176,9 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::leaf_size)]
     pub(super) leaf_size: Option<NonZeroU8>,
 
+    #[command(flatten)]
+    pub(super) reading: Reading,
+
     /// Say more: the causes of an error, each file that was read
     #[arg(short, long, conflicts_with = "quiet")]
     pub(super) verbose: bool,
@@ -203,6 +210,9 @@ pub(super) fn is_stdout(path: &Path) -> bool {
 pub(super) struct InfoArguments {
     /// A .glb, .gltf, .obj or .toml file
     pub(super) input: PathBuf,
+
+    #[command(flatten)]
+    pub(super) reading: Reading,
 
     /// Print it as JSON
     #[arg(long)]

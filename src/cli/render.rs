@@ -38,10 +38,11 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let accel_options = accel_options(arguments)?;
     let outputs = Outputs::claim(arguments, name, &Interrupt::watch())?;
 
+    let options = arguments.reading.options();
     let start = Instant::now();
     let asset = match input {
-        Some(path) => load::open(path, &load::Options::default()),
-        None => load::scene_file::parse(FIGURE_4, name, &load::Options::default()),
+        Some(path) => load::open(path, &options),
+        None => load::scene_file::parse(FIGURE_4, name, &options),
     };
     let asset = asset.map_err(Failure::usage_or_scene)?;
     outputs.spare(&asset.files)?;
@@ -50,6 +51,9 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let (scene, choices) = asset
         .scene(0.0, &viewpoint)
         .map_err(Failure::usage_or_scene)?;
+    // A picture is encoded beside the film.
+    let room = asset.check_film(&scene, 2 * settings.film_bytes());
+    room.map_err(Failure::usage_or_scene)?;
     let load = start.elapsed();
     summary::announce(arguments, &asset, &choices);
 

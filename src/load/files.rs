@@ -1,8 +1,9 @@
 //! Reading files, the model's own and those it names.
 
-use super::Options;
+use super::{Budget, Options};
 use crate::Error;
-use std::fs::{self, Metadata};
+use std::fs::{self, File, Metadata};
+use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 
 /// Makes sure that a path leads to a regular file.
@@ -27,18 +28,23 @@ pub(super) fn check(path: &Path) -> Result<Metadata, Error> {
     Ok(metadata)
 }
 
-/// Reads a whole regular file.
+/// Reads a whole regular file, with memory from the budget.
 ///
 /// # Errors
 ///
-/// It does not exist, is a folder, a device or a pipe, or cannot be read.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    let metadata = check(path)?;
+/// It does not exist, is a folder, a device or a pipe, is too long, or cannot be read.
+pub(super) fn read(path: &Path, budget: &Budget) -> Result<Vec<u8>, Error> {
+    let length = check(path)?.len();
+    budget
+        .take(length)
+        .map_err(|problem| problem.of(path, ""))?;
     // The system's own files, as in /proc, say that they are empty: some of them never end or wait for ever.
-    if metadata.len() == 0 {
-        return Ok(Vec::new());
-    }
-    fs::read(path).map_err(Error::io(path, "read"))
+    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or_default());
+    let file = File::open(path).map_err(Error::io(path, "open"))?;
+    // Nor more than was counted, should the file grow meanwhile.
+    let read = file.take(length).read_to_end(&mut bytes);
+    read.map_err(Error::io(path, "read"))?;
+    Ok(bytes)
 }
 
 /// Where a file that `from` names by the relative reference `reference` lies.

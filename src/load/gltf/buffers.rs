@@ -66,7 +66,7 @@ impl<'a> Buffers<'a> {
                         let known = match by_path.get(&path) {
                             Some(known) => known.clone(),
                             None => {
-                                let bytes = Arc::new(files::read(&path)?);
+                                let bytes = Arc::new(files::read(&path, &document.budget)?);
                                 total_bytes += bytes.len() as u64;
                                 files.push(path.clone());
                                 by_path.insert(path, bytes.clone());

@@ -245,17 +245,19 @@ fn decode(
     let json = document.root.images.get(index).ok_or("does not exist")?;
     match source {
         Source::File(path) => {
-            let bytes = files::read(path).map_err(|error| why(&error))?;
-            images::decode(&path.to_string_lossy(), &bytes)
+            let bytes = files::read(path, &document.budget).map_err(|error| why(&error))?;
+            images::decode(&path.to_string_lossy(), &bytes, &document.budget)
         }
         Source::Data(_) => match uri::resolve(json.uri.as_deref().unwrap_or_default(), document)? {
-            Uri::Data(bytes) => images::decode(&image_name(document, index), &bytes),
+            Uri::Data(bytes) => {
+                images::decode(&image_name(document, index), &bytes, &document.budget)
+            }
             Uri::File(_) => Err("is no data URI".into()),
         },
         Source::View(..) => {
             let view = json.buffer_view.ok_or("has no buffer view")?;
             let view = buffers.view(view.value())?;
-            images::decode(&image_name(document, index), view.bytes)
+            images::decode(&image_name(document, index), view.bytes, &document.budget)
         }
     }
 }
