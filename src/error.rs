@@ -1,5 +1,6 @@
 //! The errors of the doors: which file, where in it, what was expected and found, and the way out.
 
+use crate::load::OutOfMemory;
 use crate::scene::SceneError;
 use std::fmt;
 use std::io;
@@ -42,6 +43,16 @@ pub enum Error {
         /// What to do, as in "re-export without it".
         way_out: String,
     },
+    /// The file is right, and there is not the memory for it.
+    #[error("{}: {}{problem}", shown(file), What(what))]
+    OutOfMemory {
+        /// The file.
+        file: PathBuf,
+        /// What of it, as in `mesh "chair"`; all of it where empty.
+        what: String,
+        /// How much it takes, and how much there is.
+        problem: OutOfMemory,
+    },
     /// What the file says makes no scene.
     #[error("{}: {problem}", shown(file))]
     Scene {
@@ -83,6 +94,19 @@ impl fmt::Display for Place<'_> {
             Ok(())
         } else {
             write!(f, "{}: ", self.0)
+        }
+    }
+}
+
+/// What a sentence is about, or nothing.
+struct What<'a>(&'a str);
+
+impl fmt::Display for What<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_empty() {
+            Ok(())
+        } else {
+            write!(f, "{} ", self.0)
         }
     }
 }

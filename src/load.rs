@@ -6,10 +6,12 @@ pub mod scene_file;
 
 mod analytic;
 mod asset;
+mod budget;
 mod choice;
 mod exposure;
 mod files;
 mod images;
+mod memory;
 mod model;
 mod options;
 mod tangents;
@@ -18,6 +20,7 @@ mod warnings;
 
 pub use analytic::{Analytic, AnalyticKind};
 pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
+pub use budget::{Budget, OutOfMemory};
 pub use model::{
     Ask, Facts, Model, ModelCamera, ModelMesh, Node, Note, Part, TextureFacts, Treatment,
 };
@@ -35,10 +38,12 @@ use std::path::Path;
 /// The file cannot be read, is malformed, asks for what luch does not do, or has nothing to draw.
 pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let budget = Budget::of(options);
+    let of_model = |model| Asset::of_model(model, budget.clone());
     match extension.as_deref() {
         Some("toml") => scene_file::open(path, options),
-        Some("gltf" | "glb") => gltf::open(path, options).map(Asset::from),
-        Some("obj") => obj::open(path, options).map(Asset::from),
+        Some("gltf" | "glb") => gltf::open_within(path, options, &budget).map(of_model),
+        Some("obj") => obj::open_within(path, options, &budget).map(of_model),
         _ => {
             files::check(path)?;
             Err(Error::Unsupported {

@@ -57,6 +57,21 @@ impl Mesh {
         })
     }
 
+    /// What its vertices and triangles take, in bytes.
+    pub fn bytes(&self) -> u64 {
+        let [first, second] = &self.uvs;
+        let lists = [
+            size_of_val(self.positions.as_slice()),
+            size_of_val(self.triangles.as_slice()),
+            size_of_val(self.normals.as_slice()),
+            size_of_val(self.tangents.as_slice()),
+            size_of_val(first.as_slice()),
+            size_of_val(second.as_slice()),
+            size_of_val(self.colors.as_slice()),
+        ];
+        lists.into_iter().map(|bytes| bytes as u64).sum()
+    }
+
     /// This mesh carried into another space; the fronts stay fronts where `transform` mirrors.
     pub fn transformed(mut self, transform: &DAffine3) -> Mesh {
         let matrix = transform.matrix3;

@@ -124,6 +124,7 @@ pub struct Scene {
     meshes: Vec<Mesh>,
     instances: Vec<PlacedInstance>,
     primitive_count: u32,
+    bytes: u64,
     /// Of each material that answers light the same way everywhere, how.
     plain: Vec<Option<Reflectance>>,
     lamps: Vec<Lamp>,
@@ -137,9 +138,28 @@ impl Scene {
     ///
     /// The first thing that is wrong: a number that is not finite, a size that is not above zero, a direction without
     /// length, an index out of range, more primitives than 32 bits can number.
-    pub fn new(mut description: SceneDescription) -> Result<Scene, SceneError> {
+    pub fn new(description: SceneDescription) -> Result<Scene, SceneError> {
+        Scene::new_within(description, u64::MAX)
+    }
+
+    /// [`Scene::new`] of a scene that takes at most so many bytes, a search tree included.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Scene::new`]; and where it takes more, before it does.
+    pub fn new_within(
+        mut description: SceneDescription,
+        most_bytes: u64,
+    ) -> Result<Scene, SceneError> {
         check::check(&description)?;
         let primitive_count = layout::count_primitives(&description)?;
+        let bytes = layout::bytes(&description);
+        if bytes > most_bytes {
+            return Err(SceneError::OutOfMemory {
+                needs: bytes,
+                left: most_bytes,
+            });
+        }
         for plane in &mut description.planes {
             plane.shape.normal = unit(plane.shape.normal);
         }
@@ -164,6 +184,7 @@ impl Scene {
             meshes,
             instances,
             primitive_count,
+            bytes,
             plain,
             lamps,
         })
@@ -222,6 +243,11 @@ impl Scene {
     /// Spheres, planes, and the triangles of every instance.
     pub fn primitive_count(&self) -> u32 {
         self.primitive_count
+    }
+
+    /// About what its meshes and a search tree over it take, in bytes.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
     }
 
     /// The box around spheres and instances; planes have none.

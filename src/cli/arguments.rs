@@ -69,6 +69,9 @@ Examples:
   luch render helmet.glb -o - | viewer
   luch render helmet.glb -o helmet.png --json > helmet.json
 
+Limits: 4 GiB a file; 268435456 pixels an image; 2147483647 triangles and other primitives, each as often as it is placed;
+4 GiB a picture in memory; of everything else, such as vertices and nodes, what --max-memory holds.
+
 Environment: LUCH_ISA=scalar|avx2|avx512 chooses the kernels that search [default: the widest that the machine has]; all of
 them give the same picture.
 
@@ -207,7 +210,9 @@ pub(super) fn is_stdout(path: &Path) -> bool {
 
 /// Everything `luch info` can be told.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  luch info helmet.glb\n  luch info helmet.glb --json\n  luch info shop.glb --scene Cellar")]
+#[command(
+    after_help = "Examples:\n  luch info helmet.glb\n  luch info helmet.glb --json\n  luch info shop.glb --scene Cellar"
+)]
 pub(super) struct InfoArguments {
     /// A .glb, .gltf, .obj or .toml file
     pub(super) input: PathBuf,

@@ -42,8 +42,8 @@ type Line = (&'static str, String);
 
 /// Tells what is in a file.
 pub(super) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
-    let asset = load::open(&arguments.input, &arguments.reading.options())
-        .map_err(Failure::usage_or_scene)?;
+    let options = arguments.reading.options();
+    let asset = load::open(&arguments.input, &options).map_err(Failure::usage_or_scene)?;
     let viewpoint = Viewpoint {
         aspect: 1.0,
         camera: CameraChoice::OfFile,

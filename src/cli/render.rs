@@ -49,6 +49,9 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let (scene, choices) = asset
         .scene(0.0, &viewpoint)
         .map_err(Failure::usage_or_scene)?;
+    // A picture is encoded beside the film.
+    let room = asset.check_film(&scene, 2 * settings.film_bytes());
+    room.map_err(Failure::usage_or_scene)?;
     let load = start.elapsed();
     summary::announce(arguments, &asset, &choices);
 

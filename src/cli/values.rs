@@ -69,6 +69,23 @@ pub(super) fn vector(text: &str) -> Result<Vec3, String> {
     }
 }
 
+/// A number of bytes, as in `1000000`, `500M` or `4G`: the letters are powers of 1024.
+pub(super) fn bytes(text: &str) -> Result<u64, String> {
+    let units = [('K', 10), ('M', 20), ('G', 30), ('T', 40)];
+    let unit = units
+        .into_iter()
+        .find(|(letter, _)| text.to_uppercase().ends_with(*letter));
+    let (digits, shift) = match unit {
+        Some((_, shift)) => (text.get(..text.len() - 1), shift),
+        None => (Some(text), 0),
+    };
+    let number: Option<u64> = digits.and_then(|digits| digits.parse().ok());
+    number
+        .and_then(|number| number.checked_mul(1 << shift))
+        .filter(|&bytes| bytes > 0)
+        .ok_or_else(|| "expected a whole number of bytes above 0, as in 4G or 500M".into())
+}
+
 /// A whole number in a range.
 pub(super) fn whole_number(
     range: RangeInclusive<u32>,

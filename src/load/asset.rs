@@ -1,13 +1,14 @@
 //! What a file holds, before a choice of camera and time makes a scene of it.
 
 use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
-use super::{Model, Warnings};
+use super::{Budget, Model, OutOfMemory, Warnings};
 use crate::Error;
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::geometry::{Plane, Sphere};
 use crate::light::Light;
 use crate::material::Material;
+use crate::mesh::Mesh;
 use crate::scene::{Instance, Object, Scene, SceneDescription};
 use crate::shade::Shading;
 use glam::{DAffine3, Vec3};
@@ -42,6 +43,8 @@ pub struct Asset {
     pub warnings: Warnings,
     /// Every file that was read, the asset's own first.
     pub files: Vec<PathBuf>,
+    /// What reading may take, and what it took.
+    pub budget: Budget,
 }
 
 /// A model somewhere in an asset's world.
@@ -88,6 +91,11 @@ impl Asset {
     /// There is no camera of the wanted name, or what the file says makes no scene.
     pub fn scene(&self, _time: f64, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
         let mut choices = Choices::default();
+        // What is described is a copy of what was read.
+        let copy = |placed: &PlacedModel| placed.model.meshes.iter().map(Mesh::bytes).sum::<u64>();
+        let copies = self.models.iter().map(copy).sum();
+        let short = |problem: OutOfMemory| problem.of(&self.file, "the scene");
+        self.budget.check(copies).map_err(short)?;
         let placeholder = Camera::looking_at(Vec3::Z, Vec3::ZERO, Vec3::Y, 1.0);
         let mut description = SceneDescription {
             materials: self.materials.clone(),
@@ -106,7 +114,7 @@ impl Asset {
             file: self.file.clone(),
             problem,
         };
-        let scene = Scene::new(description).map_err(in_file)?;
+        let scene = Scene::new_within(description, self.budget.left()).map_err(in_file)?;
         Ok((scene, choices))
     }
 
@@ -114,11 +122,19 @@ impl Asset {
     pub fn cameras(&self) -> Vec<PlacedCamera> {
         viewpoint::cameras(self).collect()
     }
-}
 
-impl From<Model> for Asset {
+    /// Finds whether a film of `bytes` fits into what the asset and its scene leave.
+    ///
+    /// # Errors
+    ///
+    /// It does not.
+    pub fn check_film(&self, scene: &Scene, bytes: u64) -> Result<(), Error> {
+        let fits = self.budget.check(scene.bytes().saturating_add(bytes));
+        fits.map_err(|problem| problem.of(&self.file, "the scene with its picture"))
+    }
+
     /// A model by itself, at its own place.
-    fn from(model: Model) -> Asset {
+    pub(super) fn of_model(model: Model, budget: Budget) -> Asset {
         Asset {
             file: model.file.clone(),
             is_scene_file: false,
@@ -137,7 +153,15 @@ impl From<Model> for Asset {
             background: None,
             ambient: None,
             picture: PictureDefaults::default(),
+            budget,
         }
+    }
+}
+
+impl From<Model> for Asset {
+    /// A model by itself, at its own place, with as much memory as luch takes where nobody says how much.
+    fn from(model: Model) -> Asset {
+        Asset::of_model(model, Budget::default())
     }
 }
 

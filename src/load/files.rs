@@ -1,8 +1,10 @@
 //! Reading files, the model's own and those it names.
 
+use super::{Budget, Options};
 use crate::Error;
-use std::fs::{self, Metadata};
-use std::path::{Path, PathBuf};
+use std::fs::{self, File, Metadata};
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
 
 /// Makes sure that a path leads to a regular file.
 ///
@@ -26,22 +28,189 @@ pub(super) fn check(path: &Path) -> Result<Metadata, Error> {
     Ok(metadata)
 }
 
-/// Reads a whole regular file.
+/// Reads a whole regular file, with memory from the budget.
 ///
 /// # Errors
 ///
-/// It does not exist, is a folder, a device or a pipe, or cannot be read.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    let metadata = check(path)?;
+/// It does not exist, is a folder, a device or a pipe, is too long, or cannot be read.
+pub(super) fn read(path: &Path, budget: &Budget) -> Result<Vec<u8>, Error> {
+    let length = check(path)?.len();
+    budget
+        .take(length)
+        .map_err(|problem| problem.of(path, ""))?;
     // The system's own files, as in /proc, say that they are empty: some of them never end or wait for ever.
-    if metadata.len() == 0 {
-        return Ok(Vec::new());
-    }
-    fs::read(path).map_err(Error::io(path, "read"))
+    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or_default());
+    let file = File::open(path).map_err(Error::io(path, "open"))?;
+    // Nor more than was counted, should the file grow meanwhile.
+    let read = file.take(length).read_to_end(&mut bytes);
+    read.map_err(Error::io(path, "read"))?;
+    Ok(bytes)
 }
 
 /// Where a file that `from` names by the relative reference `reference` lies.
 pub(super) fn beside(from: &Path, reference: &Path) -> PathBuf {
     from.parent()
         .map_or_else(|| reference.to_owned(), |folder| folder.join(reference))
+}
+
+/// Where a file lies that a model names: below the model's own folder, unless `options` allow all.
+///
+/// A picture of a stranger's model must not read what else lies on the disk. Links are followed first, so that one of
+/// a stranger's leads nowhere else either. Where the model's own path is a link, it is the user's, and files may lie
+/// beside the link or beside what it leads to. A file that is not there is left to whoever opens it.
+///
+/// # Errors
+///
+/// The end of a sentence about the reference: it leads out of the folder.
+pub(super) fn named_by(
+    model: &Path,
+    reference: &Path,
+    options: &Options,
+) -> Result<PathBuf, String> {
+    let leads_out = || {
+        let shown: String = reference.to_string_lossy().chars().take(80).collect();
+        let shown = shown.replace(|c: char| c.is_control(), "\u{fffd}");
+        format!(
+            "\"{shown}\" leads out of the model's folder; move the file beside the model, or use --allow-external"
+        )
+    };
+    if !options.allow_external && !stays_below(reference) {
+        return Err(leads_out());
+    }
+    let beside_link = beside(model, reference);
+    let target = model.canonicalize().ok();
+    let beside_target = target.as_deref().map(|target| beside(target, reference));
+    let path = match beside_target {
+        Some(path) if !beside_link.exists() && path.exists() => path,
+        _ => beside_link,
+    };
+    let Ok(real) = path.canonicalize() else {
+        return Ok(path);
+    };
+    let folders = [folder_of(model).canonicalize().ok(), target.map(folder_of)];
+    let is_below = folders
+        .into_iter()
+        .flatten()
+        .any(|folder| real.starts_with(folder));
+    if is_below || options.allow_external {
+        Ok(path)
+    } else {
+        Err(leads_out())
+    }
+}
+
+/// Whether the words of a path, before any link is followed, never leave the folder that it starts in.
+fn stays_below(reference: &Path) -> bool {
+    let mut depth = 0_usize;
+    reference.components().all(|component| {
+        let next = match component {
+            Component::Normal(_) => Some(depth + 1),
+            Component::CurDir => Some(depth),
+            Component::ParentDir => depth.checked_sub(1),
+            Component::RootDir | Component::Prefix(_) => None,
+        };
+        depth = next.unwrap_or_default();
+        next.is_some()
+    })
+}
+
+/// The folder that a file lies in.
+fn folder_of(file: impl AsRef<Path>) -> PathBuf {
+    match file.as_ref().parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+    use super::*;
+    use std::os::unix::fs::symlink;
+
+    /// `out/secret`, and a folder `in` with a file `own`, a file `below/own`, and links out and within.
+    fn folders() -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir_all(at("in/below")).unwrap();
+        fs::create_dir_all(at("out")).unwrap();
+        for file in ["in/own", "in/below/own", "in/model.obj", "out/secret"] {
+            fs::write(at(file), "x").unwrap();
+        }
+        symlink("../out/secret", at("in/link-out")).unwrap();
+        symlink("../out", at("in/folder-out")).unwrap();
+        symlink("below/own", at("in/link-within")).unwrap();
+        symlink("../in/model.obj", at("out/model.obj")).unwrap();
+        folder
+    }
+
+    fn is_allowed(model: &Path, reference: &str) -> bool {
+        named_by(model, Path::new(reference), &Options::default()).is_ok()
+    }
+
+    #[test]
+    fn what_lies_below_the_folder_is_allowed_and_no_more() {
+        let folder = folders();
+        let model = folder.path().join("in/model.obj");
+        for reference in [
+            "own",
+            "./own",
+            "below/own",
+            "below/../own",
+            "link-within",
+            "gone",
+        ] {
+            assert!(is_allowed(&model, reference), "{reference}");
+        }
+        let absolute = folder.path().join("in/own");
+        let absolute = absolute.to_str().unwrap();
+        for reference in [
+            "../out/secret",
+            "below/../../out/secret",
+            "below/../../in/own",
+            "link-out",
+            "folder-out/secret",
+            "/dev/zero",
+            absolute,
+        ] {
+            assert!(!is_allowed(&model, reference), "{reference}");
+        }
+    }
+
+    #[test]
+    fn a_model_that_is_a_link_has_two_folders() {
+        let folder = folders();
+        let link = folder.path().join("out/model.obj");
+        let of = |reference: &str| named_by(&link, Path::new(reference), &Options::default());
+        let at = |name: &str| folder.path().canonicalize().unwrap().join(name);
+        let real = |path: PathBuf| path.canonicalize().unwrap();
+        assert_eq!(of("secret").map(real), Ok(at("out/secret")));
+        assert_eq!(of("own").map(real), Ok(at("in/own")));
+        assert_eq!(of("gone"), Ok(folder.path().join("out/gone")));
+        assert!(of("../in/own").is_err());
+    }
+
+    #[test]
+    fn who_means_it_may_name_anything() {
+        let all = Options {
+            allow_external: true,
+            ..Options::default()
+        };
+        for (reference, expected) in [("../b", "a/../b"), ("/b", "/b"), ("b", "a/b")] {
+            let found = named_by(Path::new("a/model.obj"), Path::new(reference), &all);
+            assert_eq!(found, Ok(PathBuf::from(expected)));
+        }
+    }
+
+    #[test]
+    fn a_leading_out_is_said_on_one_line() {
+        let problem = named_by(
+            Path::new("m.obj"),
+            Path::new("../a\nb"),
+            &Options::default(),
+        );
+        let expected = "\"../a\u{fffd}b\" leads out of the model's folder; move the file beside the model, or use --allow-external";
+        assert_eq!(problem, Err(expected.into()));
+    }
 }

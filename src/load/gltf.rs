@@ -27,7 +27,7 @@ mod primitives;
 mod textures;
 mod uri;
 
-use super::{Facts, Model, Options, Warnings, files};
+use super::{Budget, Facts, Model, Options, Warnings, budget, files};
 use crate::Error;
 use buffers::Buffers;
 use document::{Document, one_line};
@@ -49,10 +49,22 @@ const BRIGHTEST: f32 = 1e18;
 /// The file or one of its buffers cannot be read or is malformed, it requires an extension that luch lacks, or it has
 /// nothing to draw. An image that cannot be read is a warning.
 pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
-    let bytes = files::read(path)?;
+    open_within(path, options, &Budget::of(options))
+}
+
+/// [`open`] with memory from a budget.
+pub(super) fn open_within(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {
+    let before = budget.spent();
+    let model = read(path, options, budget)?;
+    budget.settle(before, budget::bytes_of_model(&model));
+    Ok(model)
+}
+
+fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {
+    let bytes = files::read(path, budget)?;
     let mut warnings = Warnings::default();
     let container = container::open(path, &bytes, &mut warnings)?;
-    let document = Document::parse(path, container.json, options, &mut warnings)?;
+    let document = Document::parse(path, container.json, options, budget, &mut warnings)?;
     let extensions = extensions::check(&document, &mut warnings)?;
     let buffers = Buffers::read(&document, container.binary)?;
 

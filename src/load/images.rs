@@ -2,6 +2,7 @@
 
 mod jpeg;
 
+use crate::load::Budget;
 use crate::texture::{Image, Pixels};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
@@ -32,10 +33,10 @@ enum Kind {
 /// # Errors
 ///
 /// One line that says what is wrong, without the image's name.
-pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<Image, String> {
+pub(super) fn decode(name: &str, bytes: &[u8], budget: &Budget) -> Result<Image, String> {
     let (width, height, pixels) = match kind(name, bytes)? {
-        Kind::Jpeg => jpeg::decode(bytes)?,
-        Kind::Other(format) => decode_other(format, bytes)?,
+        Kind::Jpeg => jpeg::decode(bytes, budget)?,
+        Kind::Other(format) => decode_other(format, bytes, budget)?,
         Kind::Refused(kind) => {
             return Err(format!(
                 "is {kind}, which is not supported; use PNG or JPEG"
@@ -71,7 +72,11 @@ fn kind(name: &str, bytes: &[u8]) -> Result<Kind, String> {
     })
 }
 
-fn decode_other(format: ImageFormat, bytes: &[u8]) -> Result<(u32, u32, Pixels), String> {
+fn decode_other(
+    format: ImageFormat,
+    bytes: &[u8],
+    budget: &Budget,
+) -> Result<(u32, u32, Pixels), String> {
     let said = |error| match format {
         ImageFormat::Png => said("PNG", error),
         ImageFormat::Bmp => said("BMP", error),
@@ -88,6 +93,11 @@ fn decode_other(format: ImageFormat, bytes: &[u8]) -> Result<(u32, u32, Pixels),
     let decoder = reader.into_decoder().map_err(said)?;
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into(), most)?;
+    // As it is decoded, then as RGBA, then a copy of that.
+    let kind = decoder.color_type();
+    let a_channel = kind.bytes_per_pixel() / kind.channel_count();
+    let bytes_a_pixel = kind.bytes_per_pixel() + 2 * 4 * a_channel;
+    take(width, height, bytes_a_pixel, budget)?;
     let image = DynamicImage::from_decoder(decoder).map_err(said)?;
     let is_deep = image.color().bytes_per_pixel() / image.color().channel_count() > 1;
     let pixels = if is_deep {
@@ -123,6 +133,13 @@ fn check_size(width: u64, height: u64, most: u64) -> Result<(), String> {
     }
 }
 
+/// Takes the memory that decoding takes at its peak.
+fn take(width: u32, height: u32, bytes_a_pixel: u8, budget: &Budget) -> Result<(), String> {
+    let bytes = u64::from(width) * u64::from(height) * u64::from(bytes_a_pixel);
+    let taken = budget.take(bytes);
+    taken.map_err(|problem| format!("{width} x {height} pixels: {problem}"))
+}
+
 /// A decoder's own words on one line.
 fn said(kind: &str, error: impl std::fmt::Display) -> String {
     let words: String = error
@@ -138,6 +155,7 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
 
     use super::*;
+    use crate::load::Options;
     use image::{ImageBuffer, Luma, LumaA, Rgb, Rgba};
 
     fn encoded(image: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
@@ -147,7 +165,7 @@ mod tests {
     }
 
     fn eight(name: &str, bytes: &[u8]) -> Vec<[u8; 4]> {
-        match decode(name, bytes).unwrap().pixels {
+        match decode(name, bytes, &Budget::default()).unwrap().pixels {
             Pixels::Eight(pixels) => pixels,
             Pixels::Sixteen(_) => panic!("8 bits expected"),
         }
@@ -184,7 +202,7 @@ mod tests {
     fn sixteen_bits_stay_sixteen() {
         let grey = ImageBuffer::from_pixel(1, 1, Luma([513_u16]));
         let png = encoded(DynamicImage::ImageLuma16(grey), ImageFormat::Png);
-        let image = decode("deep", &png).unwrap();
+        let image = decode("deep", &png, &Budget::default()).unwrap();
         assert_eq!(image.pixels, Pixels::Sixteen(vec![[513, 513, 513, 65535]]));
         assert_eq!(
             (image.name.as_str(), image.width, image.height),
@@ -206,7 +224,7 @@ mod tests {
         assert_eq!(eight("", &bmp), expected);
         let tga = encoded(image, ImageFormat::Tga);
         assert_eq!(eight("a.TGA", &tga), expected);
-        assert!(decode("a.png", &tga).is_err());
+        assert!(decode("a.png", &tga, &Budget::default()).is_err());
     }
 
     #[test]
@@ -218,7 +236,7 @@ mod tests {
 
     #[test]
     fn what_luch_does_not_read_is_refused_by_name() {
-        let refused = |bytes: &[u8]| decode("", bytes).unwrap_err();
+        let refused = |bytes: &[u8]| decode("", bytes, &Budget::default()).unwrap_err();
         assert_eq!(
             refused(b"RIFF\x1a\0\0\0WEBPVP8L"),
             "is a WebP image, which is not supported; use PNG or JPEG"
@@ -239,13 +257,13 @@ mod tests {
         bmp[18..22].copy_from_slice(&30_000_u32.to_le_bytes());
         bmp[22..26].copy_from_slice(&30_000_u32.to_le_bytes());
         assert_eq!(
-            decode("", &bmp).unwrap_err(),
+            decode("", &bmp, &Budget::default()).unwrap_err(),
             "is 30000 x 30000 pixels, expected at most 268435456 in all"
         );
         bmp[18..22].copy_from_slice(&10_000_u32.to_le_bytes());
         bmp[22..26].copy_from_slice(&10_000_u32.to_le_bytes());
         assert_eq!(
-            decode("", &bmp).unwrap_err(),
+            decode("", &bmp, &Budget::default()).unwrap_err(),
             "says 10000 x 10000 pixels, for which the file is too short"
         );
     }
@@ -255,9 +273,27 @@ mod tests {
         let rgb = ImageBuffer::from_pixel(9, 9, Rgb([1, 2, 3]));
         let png = encoded(DynamicImage::ImageRgb8(rgb), ImageFormat::Png);
         for length in 1..png.len() - 12 {
-            let problem = decode("", &png[..length]).unwrap_err();
+            let problem = decode("", &png[..length], &Budget::default()).unwrap_err();
             assert!(!problem.contains('\n'), "{problem}");
         }
-        assert!(decode("", b"\xff\xd8\xff\xe0").is_err());
+        assert!(decode("", b"\xff\xd8\xff\xe0", &Budget::default()).is_err());
+    }
+
+    #[test]
+    fn pixels_come_from_the_budget_before_they_are_decoded() {
+        let grey = ImageBuffer::from_pixel(1000, 1000, Luma([7_u8]));
+        let png = encoded(grey, ImageFormat::Png);
+        let budget = |bytes| {
+            Budget::of(&Options {
+                max_memory: Some(bytes),
+                ..Options::default()
+            })
+        };
+        let refused = decode("", &png, &budget(8_000_000)).unwrap_err();
+        assert_eq!(
+            refused,
+            "1000 x 1000 pixels: takes 9 MB of memory, 8 MB are left; make it smaller, or allow more with --max-memory"
+        );
+        assert!(decode("", &png, &budget(9_000_000)).is_ok());
     }
 }

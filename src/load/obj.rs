@@ -27,7 +27,9 @@ mod reader;
 mod text;
 mod textures;
 
-use super::{Facts, Model, ModelMesh, Node, Options, Part, Warnings, files, tangents};
+use super::{
+    Budget, Facts, Model, ModelMesh, Node, Options, Part, Warnings, budget, files, tangents,
+};
 use crate::Error;
 use geometry::Geometry;
 use libraries::{folder_of, read_libraries};
@@ -44,8 +46,27 @@ const MOST_BYTES: usize = u32::MAX as usize;
 /// # Errors
 ///
 /// The file cannot be read, has a line that makes no sense, or nothing to draw. A missing MTL or texture is a warning.
-pub fn open(path: &Path, _options: &Options) -> Result<Model, Error> {
-    let bytes = files::read(path)?;
+pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
+    open_within(path, options, &Budget::of(options))
+}
+
+/// [`open`] with memory from a budget.
+pub(super) fn open_within(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {
+    let before = budget.spent();
+    let model = read(path, options, budget)?;
+    budget.settle(before, budget::bytes_of_model(&model));
+    Ok(model)
+}
+
+/// What each byte of an OBJ can come to, in bytes: `f 1 1 1` is a triangle of three vertices, with corners, weld and
+/// mesh.
+const MEMORY_A_BYTE: u64 = 24;
+
+fn read(path: &Path, _options: &Options, budget: &Budget) -> Result<Model, Error> {
+    let bytes = files::read(path, budget)?;
+    budget
+        .take(MEMORY_A_BYTE * bytes.len() as u64)
+        .map_err(|problem| problem.of(path, ""))?;
     if bytes.len() > MOST_BYTES {
         return Err(Error::Unsupported {
             file: path.to_owned(),
@@ -62,7 +83,7 @@ pub fn open(path: &Path, _options: &Options) -> Result<Model, Error> {
         warnings: std::mem::take(&mut geometry.warnings),
         ..Model::default()
     };
-    let material_of = add_materials(&mut model, &geometry);
+    let material_of = add_materials(&mut model, &geometry, budget);
     add_shapes(&mut model, &geometry, &material_of);
     if model.shapes.is_empty() {
         let problem = "has nothing to draw, expected a face with finite vertices";
@@ -79,10 +100,10 @@ pub fn open(path: &Path, _options: &Options) -> Result<Model, Error> {
 }
 
 /// Reads MTLs and textures; for each material that the geometry names, its index in the model. The default comes last.
-fn add_materials(model: &mut Model, geometry: &Geometry) -> Vec<u32> {
+fn add_materials(model: &mut Model, geometry: &Geometry, budget: &Budget) -> Vec<u32> {
     let folder = folder_of(&model.file);
-    let mut textures = Textures::default();
-    let known = read_libraries(model, geometry, &folder, &mut textures.finder);
+    let mut textures = Textures::within(budget);
+    let known = read_libraries(model, geometry, &folder, &mut textures.finder, budget);
     let mut indices = Vec::with_capacity(geometry.materials.len());
     for name in &geometry.materials {
         let Some(known) = known.get(name) else {

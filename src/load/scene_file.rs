@@ -14,7 +14,7 @@ mod shapes;
 mod source;
 mod table;
 
-use super::{Asset, CameraSource, Model, Options, files, gltf, obj};
+use super::{Asset, Budget, CameraSource, Model, Options, files, gltf, obj};
 use crate::Error;
 use materials::Materials;
 use models::Models;
@@ -42,8 +42,10 @@ const TABLES: [&str; 9] = [
 /// The file or a model it names cannot be read, is not UTF-8 or TOML, has a key or a value that makes no sense, draws
 /// nothing, or says neither where to look from nor names a model to look at.
 pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
-    let text = source::decode(path, files::read(path)?)?;
-    let mut asset = parse(&text, path, options)?;
+    let budget = Budget::of(options);
+    let text = source::decode(path, files::read(path, &budget)?)?;
+    let open_model = |path: &Path| open_model(path, options, &budget);
+    let mut asset = parse_with(&text, path, &budget, open_model)?;
     asset.files.insert(0, path.to_owned());
     Ok(asset)
 }
@@ -54,13 +56,17 @@ pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
 ///
 /// Those of [`open`], as far as they are not about the file itself.
 pub fn parse(text: &str, path: &Path, options: &Options) -> Result<Asset, Error> {
-    parse_with(text, path, |path| open_model(path, options))
+    let budget = Budget::of(options);
+    parse_with(text, path, &budget, |path| {
+        open_model(path, options, &budget)
+    })
 }
 
 /// [`parse`] with another way to open a model.
 fn parse_with(
     text: &str,
     path: &Path,
+    budget: &Budget,
     open_model: impl FnMut(&Path) -> Option<Result<Model, Error>>,
 ) -> Result<Asset, Error> {
     let source = Source { file: path, text };
@@ -74,7 +80,7 @@ fn parse_with(
     let ambient = picture::color_of(&root, &picture::AMBIENT)?;
     let picture = picture::read(&root)?;
     let camera = camera::read(&root)?;
-    let models = Models::open(&root, &materials, path, open_model)?;
+    let models = Models::open(&root, &materials, path, budget, open_model)?;
     if spheres.is_empty() && planes.is_empty() && models.placed.is_empty() {
         let problem = "has nothing to draw; write a [[sphere]], a [[plane]] or a [[model]]";
         return Err(Error::malformed(path, "", problem));
@@ -102,15 +108,16 @@ fn parse_with(
         picture,
         warnings: models.warnings,
         files: models.files,
+        budget: budget.clone(),
     })
 }
 
 /// Opens a model by its extension; `None` where that is none of a model's.
-fn open_model(path: &Path, options: &Options) -> Option<Result<Model, Error>> {
+fn open_model(path: &Path, options: &Options, budget: &Budget) -> Option<Result<Model, Error>> {
     let extension = path.extension()?.to_string_lossy().to_lowercase();
     match extension.as_str() {
-        "gltf" | "glb" => Some(gltf::open(path, options)),
-        "obj" => Some(obj::open(path, options)),
+        "gltf" | "glb" => Some(gltf::open_within(path, options, budget)),
+        "obj" => Some(obj::open_within(path, options, budget)),
         _ => None,
     }
 }

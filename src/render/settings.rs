@@ -129,6 +129,11 @@ impl Settings {
         }
     }
 
+    /// What a film takes, in bytes.
+    pub fn film_bytes(&self) -> u64 {
+        film_bytes(self.width, self.height, &self.layers)
+    }
+
     /// In pixels.
     pub fn width(&self) -> u32 {
         self.width
@@ -145,15 +150,19 @@ impl Settings {
     }
 }
 
-/// Finds whether a film would take too much memory.
-fn check_bytes(width: u32, height: u32, layers: &Layers) -> Result<(), SettingsError> {
+fn film_bytes(width: u32, height: u32, layers: &Layers) -> u64 {
     let channels = layers
         .list()
         .into_iter()
         .map(|layer| layer.channels.len() as u64);
-    let bytes = u64::from(width)
+    u64::from(width)
         .saturating_mul(u64::from(height))
-        .saturating_mul(channels.sum::<u64>() * 4);
+        .saturating_mul(channels.sum::<u64>() * 4)
+}
+
+/// Finds whether a film would take too much memory.
+fn check_bytes(width: u32, height: u32, layers: &Layers) -> Result<(), SettingsError> {
+    let bytes = film_bytes(width, height, layers);
     if bytes > MAX_FILM_BYTES {
         return Err(SettingsError::TooLarge {
             width,

@@ -74,6 +74,18 @@ pub enum SceneError {
         /// The greatest coordinate in the world.
         reach: f32,
     },
+    /// It takes more memory than there is.
+    #[error(
+        "the scene with its search tree takes {} MB of memory, {} MB are left; make it smaller, or allow more with --max-memory",
+        needs.div_ceil(1_000_000),
+        left / 1_000_000
+    )]
+    OutOfMemory {
+        /// What it takes, in bytes.
+        needs: u64,
+        /// What there is for it, in bytes.
+        left: u64,
+    },
     /// More primitives than 31 bits can number.
     #[error("{count} primitives are more than {} (instances count)", i32::MAX)]
     TooManyPrimitives {

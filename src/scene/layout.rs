@@ -148,13 +148,10 @@ fn triangles_of_instances(meshes: &[Mesh], instances: &[Instance]) -> u64 {
 /// So many triangles in all, or fewer, are never worth a second level of search.
 const FEW_TRIANGLES: u64 = 65_536;
 
-/// Carries into world space what is not worth sharing.
-pub(super) fn place(
-    meshes: Vec<Mesh>,
-    instances: Vec<Instance>,
-    first_triangle: u32,
-) -> (Vec<Mesh>, Vec<PlacedInstance>) {
-    let in_world = triangles_of_instances(&meshes, &instances);
+/// The space of each instance whose mesh is worth sharing, and how many instances each mesh has.
+#[allow(clippy::type_complexity, reason = "there and back, or neither")]
+fn spaces(meshes: &[Mesh], instances: &[Instance]) -> (Vec<Option<(Affine3, Affine3)>>, Vec<u32>) {
+    let in_world = triangles_of_instances(meshes, instances);
     let mut uses = vec![0u32; meshes.len()];
     instances.iter().for_each(|i| uses[i.mesh as usize] += 1);
     let stored: u64 = meshes
@@ -164,14 +161,7 @@ pub(super) fn place(
         .map(|(m, _)| m.triangles.len() as u64)
         .sum();
     let flatten = in_world <= FEW_TRIANGLES || in_world <= 2 * stored;
-
-    // What is left to be used: the last one in world space takes the mesh itself, not a copy of it.
-    let mut meshes: Vec<Option<Mesh>> = meshes.into_iter().map(Some).collect();
-    let mut shared_as: Vec<Option<u32>> = vec![None; meshes.len()];
-    let mut out_meshes: Vec<Mesh> = Vec::new();
-    let mut placed = Vec::with_capacity(instances.len());
-    let mut first_primitive = first_triangle;
-    let spaces: Vec<Option<(Affine3, Affine3)>> = instances
+    let spaces = instances
         .iter()
         .map(|i| {
             if flatten || uses[i.mesh as usize] == 1 {
@@ -181,6 +171,41 @@ pub(super) fn place(
             }
         })
         .collect();
+    (spaces, uses)
+}
+
+/// What building a search tree takes for each of its primitives, and what stays of it, in bytes.
+const TREE_BYTES: u64 = 256;
+
+/// What the meshes that [`place`] makes take, and search trees over them, in bytes. Indices must be in range.
+pub(super) fn bytes(scene: &SceneDescription) -> u64 {
+    let (spaces, _) = spaces(&scene.meshes, &scene.instances);
+    let mut is_shared = vec![false; scene.meshes.len()];
+    let of_instances = scene.instances.iter().zip(spaces).map(|(instance, space)| {
+        let index = instance.mesh as usize;
+        let known = space.is_some() && std::mem::replace(&mut is_shared[index], true);
+        let mesh = &scene.meshes[index];
+        let of_mesh = mesh.bytes() + mesh.triangles.len() as u64 * TREE_BYTES;
+        let of_instance = TREE_BYTES + size_of::<PlacedInstance>() as u64;
+        of_instance + if known { 0 } else { of_mesh }
+    });
+    let of_spheres = scene.spheres.len() as u64 * TREE_BYTES;
+    of_instances.fold(of_spheres, u64::saturating_add)
+}
+
+/// Carries into world space what is not worth sharing.
+pub(super) fn place(
+    meshes: Vec<Mesh>,
+    instances: Vec<Instance>,
+    first_triangle: u32,
+) -> (Vec<Mesh>, Vec<PlacedInstance>) {
+    let (spaces, mut uses) = spaces(&meshes, &instances);
+    // What is left to be used: the last one in world space takes the mesh itself, not a copy of it.
+    let mut meshes: Vec<Option<Mesh>> = meshes.into_iter().map(Some).collect();
+    let mut shared_as: Vec<Option<u32>> = vec![None; meshes.len()];
+    let mut out_meshes: Vec<Mesh> = Vec::new();
+    let mut placed = Vec::with_capacity(instances.len());
+    let mut first_primitive = first_triangle;
     for (instance, space) in instances.into_iter().zip(spaces) {
         let source = instance.mesh as usize;
         uses[source] -= 1;

@@ -30,6 +30,8 @@ fn help_names_every_option_and_has_examples() {
         "--bvh-builder",
         "--small-memory",
         "--leaf-size",
+        "--allow-external",
+        "--max-memory",
         "-v, --verbose",
         "-q, --quiet",
         "--json",

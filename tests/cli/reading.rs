@@ -52,8 +52,7 @@ fn what_is_required_and_lacks_is_an_error_unless_it_is_allowed() {
     );
     let ran = folder.luch_succeeds(&["render", "a.gltf", "--allow", "ACME_x", "--size", "4x4"]);
     assert!(
-        ran.out()
-            .contains("asked: ignored: ACME_x\n"),
+        ran.out().contains("asked: ignored: ACME_x\n"),
         "{}",
         ran.out()
     );

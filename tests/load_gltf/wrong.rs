@@ -50,7 +50,7 @@ fn every_wrong_file_has_its_own_words() {
         ),
         (
             |f| f.json["buffers"] = json!([{"uri": "../model.bin", "byteLength": 36}]),
-            "model.gltf: buffer 0: its URI \"../model.bin\" leads out of the model's folder; move the file beside the model",
+            "model.gltf: buffer 0: its URI \"../model.bin\" leads out of the model's folder; move the file beside the model, or use --allow-external",
         ),
         (
             |f| f.json["buffers"] = json!([{"byteLength": 36}]),

@@ -57,17 +57,16 @@ impl<'a> Buffers<'a> {
             let bytes = match (&buffer.uri, binary) {
                 (None, Some(chunk)) if index == 0 => Bytes::Chunk(chunk),
                 (None, _) => Bytes::Absent,
-                (Some(uri), _) => match uri::resolve(uri).map_err(wrong)? {
+                (Some(uri), _) => match uri::resolve(uri, document).map_err(wrong)? {
                     Uri::Data(bytes) => {
                         total_bytes += bytes.len() as u64;
                         Bytes::Owned(Arc::new(bytes))
                     }
-                    Uri::File(relative) => {
-                        let path = files::beside(&document.file, &relative);
+                    Uri::File(path) => {
                         let known = match by_path.get(&path) {
                             Some(known) => known.clone(),
                             None => {
-                                let bytes = Arc::new(files::read(&path)?);
+                                let bytes = Arc::new(files::read(&path, &document.budget)?);
                                 total_bytes += bytes.len() as u64;
                                 files.push(path.clone());
                                 by_path.insert(path, bytes.clone());

@@ -2,8 +2,9 @@
 //!
 //! Parts are called by name, or by their index in the file's own arrays, which count from 0.
 
-use super::{Options, Warnings, json};
+use super::{Budget, Options, Warnings, json};
 use crate::Error;
+use crate::load::budget::bytes_of_json;
 use gltf::json::Root;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -17,6 +18,8 @@ pub(super) struct Document {
     pub(super) root: Root,
     /// What the user says of reading it.
     pub(super) options: Options,
+    /// Where the memory for what it names comes from.
+    pub(super) budget: Budget,
 }
 
 impl Document {
@@ -29,6 +32,7 @@ impl Document {
         file: &Path,
         json: &[u8],
         options: &Options,
+        budget: &Budget,
         warnings: &mut Warnings,
     ) -> Result<Document, Error> {
         let text = std::str::from_utf8(json).map_err(|e| {
@@ -39,18 +43,28 @@ impl Document {
             warnings.add("begins with a byte order mark, which is ignored");
             rest
         });
+        budget
+            .take(bytes_of_json(json))
+            .map_err(|problem| problem.of(file, "its JSON"))?;
         let root = json::parse(file, text)?;
         check_version(file, &root)?;
         Ok(Document {
             file: file.to_owned(),
             root,
             options: options.clone(),
+            budget: budget.clone(),
         })
     }
 
     /// An [`Error::Malformed`] of this file.
     pub(super) fn malformed(&self, place: impl Into<String>, problem: impl Into<String>) -> Error {
         Error::malformed(&self.file, place, problem)
+    }
+
+    /// Takes memory for a part of the file.
+    pub(super) fn take(&self, bytes: u64, what: impl Into<String>) -> Result<(), Error> {
+        let taken = self.budget.take(bytes);
+        taken.map_err(|problem| problem.of(&self.file, what))
     }
 
     /// The `index` again, if there is such a thing.
@@ -148,6 +162,7 @@ mod tests {
             Path::new("a.gltf"),
             text.as_bytes(),
             &Options::default(),
+            &Budget::default(),
             &mut Warnings::default(),
         )
         .map_err(|e| e.to_string())
@@ -192,6 +207,7 @@ mod tests {
             Path::new("a.gltf"),
             b"{\"\xe9\"}",
             &Options::default(),
+            &Budget::default(),
             &mut Warnings::default(),
         );
         assert_eq!(

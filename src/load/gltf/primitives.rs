@@ -22,6 +22,11 @@ pub(super) struct Reader<'a> {
     pub(super) place: String,
 }
 
+/// The index, and a third of a triangle; or of a strip, a whole one.
+const BYTES_A_CORNER: u64 = 16;
+/// Position, normal, tangent, one set of texture coordinates and another attribute.
+const BYTES_A_VERTEX: u64 = 64;
+
 /// What a primitive draws.
 pub(super) enum Drawn {
     /// Triangles, perhaps none, and how many were left out since a position of theirs is no number.
@@ -72,7 +77,7 @@ impl Reader<'_> {
         let problem = "a triangle with a position that is no number is not drawn";
         warnings.add_times(format!("{}: {problem}", self.place), left_out);
         let kept = Kept::of(&mut triangles, positions.count);
-        self.spend(budget, kept.count())?;
+        self.spend(budget, kept.count(), BYTES_A_VERTEX)?;
         let mut mesh = Mesh {
             positions: kept.gather(|i| {
                 Some(position(i))
@@ -190,7 +195,7 @@ impl Reader<'_> {
     fn corners(&self, positions: &Elements, budget: &mut u64) -> Result<Vec<u32>, Error> {
         let count = positions.count;
         let Some(accessor) = self.primitive.indices else {
-            self.spend(budget, count)?;
+            self.spend(budget, count, BYTES_A_CORNER)?;
             let end = u32::try_from(count).map_err(|_| {
                 let problem = format!("{count} vertices are more than 32 bits can number");
                 self.document.malformed(self.place.as_str(), problem)
@@ -207,7 +212,7 @@ impl Reader<'_> {
                 "are signed or fractions, expected unsigned integers".into(),
             ));
         }
-        self.spend(budget, indices.count)?;
+        self.spend(budget, indices.count, BYTES_A_CORNER)?;
         let corners: Vec<u32> = (0..indices.count).map(|i| indices.index(i)).collect();
         match corners.iter().find(|&&vertex| vertex as usize >= count) {
             None => Ok(corners),
@@ -221,7 +226,10 @@ impl Reader<'_> {
         }
     }
 
-    fn spend(&self, budget: &mut u64, elements: usize) -> Result<(), Error> {
+    /// Takes elements from the file's allowance, and their memory.
+    fn spend(&self, budget: &mut u64, elements: usize, bytes_each: u64) -> Result<(), Error> {
+        let bytes = bytes_each.saturating_mul(elements as u64);
+        self.document.take(bytes, self.place.as_str())?;
         match budget.checked_sub(elements as u64) {
             Some(rest) => {
                 *budget = rest;

@@ -33,7 +33,7 @@ pub(super) struct Textures<'a> {
 /// Where an image's bytes are. Images with the same source are one image.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Source {
-    /// Relative to the model's folder.
+    /// Its path.
     File(PathBuf),
     /// Buffer, first byte, length.
     View(usize, u64, u64),
@@ -105,9 +105,7 @@ impl<'a> Textures<'a> {
             });
         let facts = facts.collect();
         let files = work.into_iter().filter_map(|(image, source)| match source {
-            Source::File(relative) if images[image].is_some() => {
-                Some(files::beside(&document.file, &relative))
-            }
+            Source::File(path) if images[image].is_some() => Some(path),
             _ => None,
         });
         let files = files.collect();
@@ -220,8 +218,8 @@ fn source(document: &Document, index: usize) -> Result<Source, String> {
     let image = root.images.get(index).ok_or("does not exist")?;
     match (&image.uri, image.buffer_view) {
         (Some(uri), _) if uri.starts_with("data:") => Ok(Source::Data(index)),
-        (Some(uri), _) => match uri::resolve(uri)? {
-            Uri::File(relative) => Ok(Source::File(relative)),
+        (Some(uri), _) => match uri::resolve(uri, document)? {
+            Uri::File(path) => Ok(Source::File(path)),
             Uri::Data(_) => Ok(Source::Data(index)),
         },
         (None, Some(view)) => {
@@ -246,19 +244,20 @@ fn decode(
 ) -> Result<Image, String> {
     let json = document.root.images.get(index).ok_or("does not exist")?;
     match source {
-        Source::File(relative) => {
-            let path = files::beside(&document.file, relative);
-            let bytes = files::read(&path).map_err(|error| why(&error))?;
-            images::decode(&relative.to_string_lossy(), &bytes)
+        Source::File(path) => {
+            let bytes = files::read(path, &document.budget).map_err(|error| why(&error))?;
+            images::decode(&path.to_string_lossy(), &bytes, &document.budget)
         }
-        Source::Data(_) => match uri::resolve(json.uri.as_deref().unwrap_or_default())? {
-            Uri::Data(bytes) => images::decode(&image_name(document, index), &bytes),
+        Source::Data(_) => match uri::resolve(json.uri.as_deref().unwrap_or_default(), document)? {
+            Uri::Data(bytes) => {
+                images::decode(&image_name(document, index), &bytes, &document.budget)
+            }
             Uri::File(_) => Err("is no data URI".into()),
         },
         Source::View(..) => {
             let view = json.buffer_view.ok_or("has no buffer view")?;
             let view = buffers.view(view.value())?;
-            images::decode(&image_name(document, index), view.bytes)
+            images::decode(&image_name(document, index), view.bytes, &document.budget)
         }
     }
 }

@@ -1,32 +1,55 @@
 //! What a URI in a glTF file names: bytes of its own, or a file in the model's folder (glTF 2.0, section 2.8).
 
 use super::base64;
-use std::path::{Component, Path, PathBuf};
+use super::document::Document;
+use crate::load::{Options, files};
+use std::path::{Path, PathBuf};
 
 /// What a URI names.
 #[derive(Debug, PartialEq)]
 pub(super) enum Uri {
     /// The bytes of a `data:` URI.
     Data(Vec<u8>),
-    /// A path below the model's folder.
+    /// Where the file lies.
     File(PathBuf),
 }
 
-/// Reads a URI.
+/// Reads a URI of a document.
 ///
 /// # Errors
 ///
-/// It leads to the network, or out of the model's folder: a picture of a stranger's model must not read what else lies
-/// on the disk. Or its data are no base64.
-pub(super) fn resolve(uri: &str) -> Result<Uri, String> {
-    match scheme(uri) {
+/// It leads to the network; or out of the model's folder, and the document's options do not allow that. Or its data
+/// are no base64.
+pub(super) fn resolve(uri: &str, document: &Document) -> Result<Uri, String> {
+    resolve_from(uri, &document.file, &document.options)
+}
+
+fn resolve_from(uri: &str, model: &Path, options: &Options) -> Result<Uri, String> {
+    let path = match scheme(uri) {
         Some(scheme) if scheme.eq_ignore_ascii_case("data") => {
-            data(&uri[scheme.len() + 1..]).map(Uri::Data)
+            return data(&uri[scheme.len() + 1..]).map(Uri::Data);
         }
-        Some(scheme) => Err(format!(
-            "its URI begins with \"{scheme}:\", expected a file in the model's folder or data"
-        )),
-        None => file(uri).map(Uri::File),
+        Some(scheme) if options.allow_external && scheme.eq_ignore_ascii_case("file") => {
+            // `file:///a`, with nothing or "localhost" for a machine (RFC 8089), or `file:/a`.
+            let path = &uri[scheme.len() + 1..];
+            let path = path.strip_prefix("//localhost").unwrap_or(path);
+            file(path.strip_prefix("//").unwrap_or(path))?
+        }
+        Some(scheme) => {
+            let way_out = if scheme.eq_ignore_ascii_case("file") {
+                "; move the file beside the model, or use --allow-external"
+            } else {
+                ""
+            };
+            return Err(format!(
+                "its URI begins with \"{scheme}:\", expected a file in the model's folder or data{way_out}"
+            ));
+        }
+        None => file(uri)?,
+    };
+    match files::named_by(model, &path, options) {
+        Ok(path) => Ok(Uri::File(path)),
+        Err(problem) => Err(format!("its URI {problem}")),
     }
 }
 
@@ -60,25 +83,11 @@ fn file(uri: &str) -> Result<PathBuf, String> {
     let decoded = String::from_utf8(percent_decoded(uri))
         .map_err(|_| "its URI is not UTF-8, expected a file in the model's folder")?;
     // Exporters on Windows write their own separator, which URIs do not have.
-    let decoded = decoded.replace('\\', "/");
-    let mut depth = 0usize;
-    for component in Path::new(&decoded).components() {
-        match component {
-            Component::Normal(_) => depth += 1,
-            Component::CurDir => {}
-            Component::ParentDir if depth > 0 => depth -= 1,
-            Component::ParentDir | Component::RootDir | Component::Prefix(_) => {
-                return Err(format!(
-                    "its URI \"{}\" leads out of the model's folder; move the file beside the model",
-                    super::document::one_line(uri)
-                ));
-            }
-        }
-    }
-    if depth == 0 {
+    let path = PathBuf::from(decoded.replace('\\', "/"));
+    if path.file_name().is_none() && !path.ends_with("..") {
         return Err("its URI names no file".into());
     }
-    Ok(PathBuf::from(decoded))
+    Ok(path)
 }
 
 /// `text` with `%41` for `A`; a percent sign that begins no such code stands for itself.
@@ -106,6 +115,10 @@ fn percent_decoded(text: &str) -> Vec<u8> {
 mod tests {
     use super::*;
 
+    fn resolve(uri: &str) -> Result<Uri, String> {
+        resolve_from(uri, Path::new("model.gltf"), &Options::default())
+    }
+
     #[test]
     fn data_are_read_with_and_without_base64() {
         for uri in [
@@ -131,23 +144,32 @@ mod tests {
 
     #[test]
     fn what_leads_away_is_refused() {
-        for uri in ["../a.bin", "a/../../b", "/etc/passwd", "%2e%2e/a"] {
-            assert_eq!(
-                resolve(uri),
-                Err(format!(
-                    "its URI \"{uri}\" leads out of the model's folder; move the file beside the model"
-                ))
-            );
-        }
-        for (uri, scheme) in [
-            ("https://a/b.bin", "https"),
-            ("file:///a", "file"),
-            ("C:\\a", "C"),
+        for (uri, decoded) in [
+            ("../a.bin", "../a.bin"),
+            ("a/../../b", "a/../../b"),
+            ("/etc/passwd", "/etc/passwd"),
+            ("%2e%2e/a", "../a"),
         ] {
             assert_eq!(
                 resolve(uri),
                 Err(format!(
-                    "its URI begins with \"{scheme}:\", expected a file in the model's folder or data"
+                    "its URI \"{decoded}\" leads out of the model's folder; move the file beside the model, or use --allow-external"
+                ))
+            );
+        }
+        for (uri, scheme, way_out) in [
+            ("https://a/b.bin", "https", ""),
+            (
+                "file:///a",
+                "file",
+                "; move the file beside the model, or use --allow-external",
+            ),
+            ("C:\\a", "C", ""),
+        ] {
+            assert_eq!(
+                resolve(uri),
+                Err(format!(
+                    "its URI begins with \"{scheme}:\", expected a file in the model's folder or data{way_out}"
                 ))
             );
         }
@@ -156,5 +178,24 @@ mod tests {
             resolve("data:x"),
             Err("its data URI has no comma before its data".into())
         );
+    }
+
+    #[test]
+    fn who_means_it_may_name_files_elsewhere() {
+        let all = Options {
+            allow_external: true,
+            ..Options::default()
+        };
+        for (uri, path) in [
+            ("../a%20b", "m/../a b"),
+            ("/a", "/a"),
+            ("file:///a", "/a"),
+            ("file:/a", "/a"),
+            ("FILE://localhost/a", "/a"),
+        ] {
+            let found = resolve_from(uri, Path::new("m/model.gltf"), &all);
+            assert_eq!(found, Ok(Uri::File(PathBuf::from(path))), "{uri}");
+        }
+        assert!(resolve_from("https://a/b", Path::new("model.gltf"), &all).is_err());
     }
 }

@@ -5,7 +5,8 @@
 //! options could not do it: `set_use_unsafe(false)` leaves AVX2 on (`use_avx2` in zune-core 0.5.3 takes either of two
 //! flags). So no other dependency may switch these features on: `cargo tree -e features -i zune-jpeg` shows who does.
 
-use super::{check_size, most_pixels, said};
+use super::{check_size, most_pixels, said, take};
+use crate::load::Budget;
 use crate::texture::Pixels;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
@@ -15,8 +16,11 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 /// No JPEG has more for each byte of its file: the least is one bit for 64 pixels.
 const MOST_PIXELS_A_BYTE: u64 = 1 << 10;
 
+/// Coefficients of 16 bits (all of them, where it is progressive) of up to four components, then RGB, then RGBA.
+const BYTES_A_PIXEL: u8 = 15;
+
 /// Width, height and pixels.
-pub(super) fn decode(bytes: &[u8]) -> Result<(u32, u32, Pixels), String> {
+pub(super) fn decode(bytes: &[u8], budget: &Budget) -> Result<(u32, u32, Pixels), String> {
     let said = |error| said("JPEG", error);
     // RGB rather than RGBA: for RGBA the decoder (0.5.15) steps through CMYK images in rows of a wrong length.
     let options = DecoderOptions::new_safe()
@@ -31,6 +35,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(u32, u32, Pixels), String> {
         height as u64,
         most_pixels(bytes, MOST_PIXELS_A_BYTE),
     )?;
+    take(width as u32, height as u32, BYTES_A_PIXEL, budget)?;
     let rgb = decoder.decode().map_err(said)?;
     let pixels: Vec<[u8; 4]> = rgb
         .as_chunks::<3>()
@@ -61,7 +66,8 @@ mod tests {
 
     /// The four corners against what Pillow 13.0 (libjpeg-turbo) decodes: the standard leaves decoders the last bit.
     fn assert_corners(jpeg: &str, width: usize, height: usize, expected: [[i32; 3]; 4]) {
-        let (found_width, found_height, pixels) = decode(&from_hex(jpeg)).unwrap();
+        let (found_width, found_height, pixels) =
+            decode(&from_hex(jpeg), &Budget::default()).unwrap();
         assert_eq!(
             (found_width as usize, found_height as usize),
             (width, height)

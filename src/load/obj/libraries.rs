@@ -4,7 +4,7 @@ use super::find::{Finder, Found};
 use super::geometry::Geometry;
 use super::mtl::{self, MtlMaterial};
 use super::text::{plain, shown};
-use crate::load::{Model, files};
+use crate::load::{Budget, Model, files};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -24,6 +24,7 @@ pub(super) fn read_libraries(
     geometry: &Geometry,
     folder: &Path,
     finder: &mut Finder,
+    budget: &Budget,
 ) -> HashMap<String, Known> {
     let mut known: HashMap<String, Known> = HashMap::new();
     let folders = [folder.to_owned()];
@@ -40,7 +41,7 @@ pub(super) fn read_libraries(
             };
             // However many names it goes by.
             if read.insert(path.canonicalize().unwrap_or_else(|_| path.clone())) {
-                read_library(model, &path, &mut known);
+                read_library(model, &path, budget, &mut known);
             }
         }
     }
@@ -88,8 +89,13 @@ fn library_path(model: &mut Model, found: &Found, name: &str) -> Option<PathBuf>
     }
 }
 
-fn read_library(model: &mut Model, path: &Path, known: &mut HashMap<String, Known>) {
-    let bytes = match files::read(path) {
+fn read_library(
+    model: &mut Model,
+    path: &Path,
+    budget: &Budget,
+    known: &mut HashMap<String, Known>,
+) {
+    let bytes = match files::read(path, budget) {
         Ok(bytes) => bytes,
         Err(error) => {
             model

@@ -4,7 +4,7 @@ use super::bump;
 use super::find::{Finder, Found};
 use super::map::Map;
 use super::text::shown;
-use crate::load::{TextureFacts, Warnings, files, images};
+use crate::load::{Budget, TextureFacts, Warnings, files, images};
 use crate::material::{AlphaChannel, NormalMap};
 use crate::texture::{Encoding, Filter, Image, Pixels, Texture, TextureUse, Wrap};
 use glam::{Mat3, Vec3};
@@ -15,6 +15,7 @@ use std::sync::Arc;
 /// All textures of a model, and where to look for more.
 #[derive(Default)]
 pub(super) struct Textures {
+    budget: Budget,
     /// Of the MTL at hand, then of the OBJ.
     pub(super) folders: Vec<PathBuf>,
     pub(super) finder: Finder,
@@ -30,6 +31,14 @@ pub(super) struct Textures {
 }
 
 impl Textures {
+    /// None yet; their memory comes from the budget.
+    pub(super) fn within(budget: &Budget) -> Textures {
+        Textures {
+            budget: budget.clone(),
+            ..Textures::default()
+        }
+    }
+
     /// A texture of colours; `None`, and a warning, where it cannot be had.
     pub(super) fn color(&mut self, map: Option<&Map>) -> Option<TextureUse> {
         let map = map?;
@@ -136,11 +145,12 @@ impl Textures {
             return known.clone();
         }
         let name = path.to_string_lossy().into_owned();
-        let decoded = files::read(&path)
+        let decoded = files::read(&path, &self.budget)
             .map_err(|error| error.to_string())
             .and_then(|bytes| {
                 self.files.push(path.clone());
-                images::decode(&name, &bytes).map_err(|problem| format!("{name}: {problem}"))
+                images::decode(&name, &bytes, &self.budget)
+                    .map_err(|problem| format!("{name}: {problem}"))
             });
         let image = match decoded {
             Ok(image) => Some(Arc::new(image)),

@@ -5,7 +5,7 @@ use super::materials::{Materials, Wearer};
 use super::source::one_line;
 use super::table::{Schema, Table};
 use crate::Error;
-use crate::load::{Model, PlacedModel, Warnings, files};
+use crate::load::{Budget, Model, PlacedModel, Warnings, budget, files};
 use glam::{DAffine3, DQuat, DVec3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -33,6 +33,7 @@ impl Models {
         root: &Table<'_>,
         materials: &Materials,
         scene_file: &Path,
+        budget: &Budget,
         mut open: impl FnMut(&Path) -> Option<Result<Model, Error>>,
     ) -> Result<Models, Error> {
         let mut models = Models::default();
@@ -46,7 +47,13 @@ impl Models {
                 .get(&path)
                 .and_then(|&place| models.placed.get(place));
             let model = match known {
-                Some(known) => known.model.clone(),
+                Some(known) => {
+                    let copy = budget::bytes_of_model(&known.model);
+                    budget.take(copy).map_err(|problem| {
+                        table.error("path", format!("to place it once more {problem}"))
+                    })?;
+                    known.model.clone()
+                }
                 None => {
                     let model = open(&path).ok_or_else(|| {
                         table.wrong("path", "a name that ends in .gltf, .glb or .obj")

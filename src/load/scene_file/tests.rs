@@ -20,7 +20,13 @@ fn scene_with(text: &str, model: Model) -> Result<Asset, String> {
         };
         is_obj(path).then_some(Ok(model))
     };
-    parse_with(text, Path::new("there/scene.toml"), open).map_err(|error| error.to_string())
+    parse_with(
+        text,
+        Path::new("there/scene.toml"),
+        &Budget::default(),
+        open,
+    )
+    .map_err(|error| error.to_string())
 }
 
 fn is_obj(path: &Path) -> bool {
@@ -108,6 +114,7 @@ fn an_error_of_a_model_is_the_scene_files_own() {
     let result = parse_with(
         "[[model]]\npath = \"a.obj\"",
         Path::new("there/scene.toml"),
+        &Budget::default(),
         open,
     );
     assert_eq!(

@@ -1,0 +1,6 @@
+//! A TGA as a texture.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    luch_fuzz::image("tga", bytes);
+});
