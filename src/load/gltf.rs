@@ -11,16 +11,22 @@ mod buffers;
 mod cameras;
 mod container;
 mod document;
+mod draco;
+mod elements;
 mod emissive_strength;
 mod extensions;
 mod json;
 mod lights_punctual;
 mod materials;
 mod materials_unlit;
+mod mesh_gpu_instancing;
+mod mesh_quantization;
 mod meshes;
+mod meshopt;
 mod nodes;
 mod primitive_modes;
 mod primitives;
+mod sparse;
 mod textures;
 mod uri;
 
@@ -59,11 +65,12 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
     let (cameras, camera_indices) = compact(cameras::all(&document, &mut warnings));
     let (lights, light_indices) = compact(lights_punctual::all(&document, &mut warnings));
     let contents = Contents {
-        meshes: geometry.shapes.len(),
+        shapes: &geometry.shapes,
         cameras: &camera_indices,
         lights: &light_indices,
     };
-    let tree = nodes::read(&document, &contents, &mut warnings)?;
+    let instancing = mesh_gpu_instancing::Reader::new(&document, &buffers);
+    let tree = nodes::read(&document, &contents, instancing, &mut warnings)?;
 
     let root = &document.root;
     let name = |name: &Option<String>| name.clone().unwrap_or_default();

@@ -1,7 +1,10 @@
 //! Which extensions luch honours, and what a file asks of them. One more is one more file and one more line here.
 
 use super::document::{Document, one_line};
-use super::{Warnings, emissive_strength, lights_punctual, materials_unlit};
+use super::{
+    Warnings, draco, emissive_strength, lights_punctual, materials_unlit, mesh_gpu_instancing,
+    mesh_quantization, meshopt,
+};
 use crate::Error;
 use crate::load::{ExtensionFacts, Treatment};
 use serde::de::DeserializeOwned;
@@ -10,6 +13,11 @@ use std::collections::HashSet;
 
 /// The extensions that luch knows, and what it does with each.
 const KNOWN: &[(&str, Treatment)] = &[
+    (draco::NAME, Treatment::Honoured),
+    (mesh_gpu_instancing::NAME, Treatment::Honoured),
+    (mesh_quantization::NAME, Treatment::Honoured),
+    (meshopt::NAMES[0], Treatment::Honoured),
+    (meshopt::NAMES[1], Treatment::Honoured),
     (emissive_strength::NAME, Treatment::Honoured),
     (lights_punctual::NAME, Treatment::Honoured),
     (materials_unlit::NAME, Treatment::Honoured),
@@ -73,10 +81,6 @@ pub(super) fn check(
 /// How a file comes out without an extension.
 pub(super) fn way_out(name: &str) -> &'static str {
     match name {
-        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
-            "re-export without compression"
-        }
-        "KHR_mesh_quantization" => "re-export without quantization",
         "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" => {
             "re-export with PNG or JPEG textures"
         }
