@@ -208,12 +208,14 @@ impl PlacedModel {
                 .shape
                 .and_then(|shape| model.shapes.get(shape))
                 .map_or(&[][..], |shape| &shape.parts);
-            scene.instances.extend(parts.iter().map(|part| Instance {
-                name: node.name.clone(),
-                mesh: first_mesh + part.mesh,
-                material: self.material.unwrap_or(first_material + part.material),
-                to_world,
-            }));
+            for to_world in node.places(to_world) {
+                scene.instances.extend(parts.iter().map(|part| Instance {
+                    name: node.name.clone(),
+                    mesh: first_mesh + part.mesh,
+                    material: self.material.unwrap_or(first_material + part.material),
+                    to_world,
+                }));
+            }
         }
     }
 }

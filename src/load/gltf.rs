@@ -12,6 +12,8 @@ mod buffers;
 mod cameras;
 mod container;
 mod document;
+mod draco;
+mod elements;
 mod emissive_strength;
 mod extensions;
 mod implicit_shapes;
@@ -19,11 +21,15 @@ mod json;
 mod lights_punctual;
 mod materials;
 mod materials_unlit;
+mod mesh_gpu_instancing;
+mod mesh_quantization;
 mod meshes;
+mod meshopt;
 mod nodes;
 mod notes;
 mod primitive_modes;
 mod primitives;
+mod sparse;
 mod textures;
 mod uri;
 
@@ -77,12 +83,13 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
     let has_meshes = geometry.shapes.iter().any(|shape| !shape.parts.is_empty());
     let implicit = Shapes::read(&document, materials.len(), !has_meshes, &mut warnings);
     let contents = Contents {
-        meshes: geometry.shapes.len(),
+        shapes: &geometry.shapes,
         cameras: &camera_indices,
         lights: &light_indices,
         implicit: &implicit,
     };
-    let tree = nodes::read(&document, &contents, &mut warnings)?;
+    let instancing = mesh_gpu_instancing::Reader::new(&document, &buffers);
+    let tree = nodes::read(&document, &contents, instancing, &mut warnings)?;
 
     let root = &document.root;
     let name = |name: &Option<String>| name.clone().unwrap_or_default();

@@ -71,6 +71,8 @@ pub struct Node {
     pub shape: Option<usize>,
     /// A sphere or a plane.
     pub analytic: Option<Analytic>,
+    /// Where the shape stands in the node's space, if not once at its origin: as often as there are transforms.
+    pub instances: Option<Vec<DAffine3>>,
     /// An index into the model's cameras.
     pub camera: Option<usize>,
     /// An index into the model's lights.
@@ -161,6 +163,16 @@ impl Treatment {
             Treatment::Approximated(_) => "approximated",
             Treatment::Ignored => "ignored",
         }
+    }
+}
+
+impl Node {
+    /// Where the node's shape stands, `to_model` being the node's own place.
+    pub fn places(&self, to_model: DAffine3) -> impl Iterator<Item = DAffine3> {
+        let once = self.instances.is_none().then_some(to_model);
+        let instances = self.instances.iter().flatten();
+        once.into_iter()
+            .chain(instances.map(move |instance| to_model * instance))
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::document::{Document, one_line};
 use super::{
-    Warnings, emissive_strength, implicit_shapes, lights_punctual, materials_unlit, notes,
+    Warnings, draco, emissive_strength, implicit_shapes, lights_punctual, materials_unlit,
+    mesh_gpu_instancing, mesh_quantization, meshopt, notes,
 };
 use crate::Error;
 use crate::load::{Ask, Treatment};
@@ -12,6 +13,11 @@ use std::collections::HashSet;
 
 /// The extensions that luch knows, and what it does with each.
 const KNOWN: &[(&str, Treatment)] = &[
+    (draco::NAME, Treatment::Honoured),
+    (mesh_gpu_instancing::NAME, Treatment::Honoured),
+    (mesh_quantization::NAME, Treatment::Honoured),
+    (meshopt::NAMES[0], Treatment::Honoured),
+    (meshopt::NAMES[1], Treatment::Honoured),
     (emissive_strength::NAME, Treatment::Honoured),
     (implicit_shapes::NAME, Treatment::Honoured),
     (lights_punctual::NAME, Treatment::Honoured),
@@ -76,10 +82,6 @@ pub(super) fn check(document: &Document, warnings: &mut Warnings) -> Result<Vec<
 /// How a file comes out without an extension.
 pub(super) fn way_out(name: &str) -> &'static str {
     match name {
-        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
-            "re-export without compression"
-        }
-        "KHR_mesh_quantization" => "re-export without quantization",
         "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" => {
             "re-export with PNG or JPEG textures"
         }

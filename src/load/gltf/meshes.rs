@@ -3,7 +3,7 @@
 use super::buffers::Buffers;
 use super::document::{Document, named};
 use super::primitives::{Drawn, Reader};
-use super::{Warnings, extensions};
+use super::{Warnings, draco};
 use crate::Error;
 use crate::load::{ModelMesh, Part};
 use crate::material::Material;
@@ -33,15 +33,16 @@ pub(super) struct Geometry {
     pub(super) lines: usize,
     /// Triangles that are left out, since a position of theirs is no number.
     not_finite: usize,
-    /// The first extension that holds geometry which is not drawn.
-    compressed_by: Option<&'static str>,
 }
 
 /// What tells primitives apart, but for their material.
-type Key = (Vec<(String, usize)>, Option<usize>, u32, Option<u8>);
-
-/// Extensions that hold geometry outside accessors.
-const COMPRESSIONS: [&str; 1] = ["KHR_draco_mesh_compression"];
+type Key = (
+    Vec<(String, usize)>,
+    Option<usize>,
+    Option<draco::Compressed>,
+    u32,
+    Option<u8>,
+);
 
 /// Reads every mesh of the file. The last of `materials` is the default.
 ///
@@ -67,25 +68,14 @@ pub(super) fn all(
         };
         let name = named("mesh", index, mesh.name.as_ref());
         for (number, primitive) in mesh.primitives.iter().enumerate() {
-            let reader = Reader {
-                document,
-                buffers,
-                primitive,
-                place: format!("{name}, primitive {number}"),
-            };
-            let place = reader.place.as_str();
+            let place = format!("{name}, primitive {number}");
             let default = materials.len().saturating_sub(1);
             let material = match primitive.material {
-                Some(index) => document.checked(place, "material", index.value(), default)?,
+                Some(index) => {
+                    document.checked(place.as_str(), "material", index.value(), default)?
+                }
                 None => default,
             };
-            if let Some(extension) = compression(document, primitive) {
-                warnings.add(format!(
-                    "{place}: its geometry is in {extension} and is not drawn"
-                ));
-                geometry.compressed_by.get_or_insert(extension);
-                continue;
-            }
             if primitive
                 .targets
                 .as_ref()
@@ -94,14 +84,38 @@ pub(super) fn all(
                 warnings.add("morph targets are ignored: meshes have their own shape");
             }
             let Checked::Valid(mode) = primitive.mode else {
-                return Err(document.malformed(place, "its mode is unknown, expected 0 to 6"));
+                return Err(
+                    document.malformed(place.as_str(), "its mode is unknown, expected 0 to 6")
+                );
             };
             let normal_map = materials.get(material).and_then(|m| m.normal_map.as_ref());
             let tangent_set = normal_map.map(|map| map.texture.uv_set);
-            let key = key(primitive, mode, tangent_set);
+            let wrong = |problem| document.malformed(format!("{place}, {}", draco::NAME), problem);
+            let compressed = draco::of(primitive).map_err(wrong)?;
+            let key = key(primitive, &compressed, mode, tangent_set);
             let drawn = match known.get(&key) {
                 Some(&drawn) => drawn,
                 None => {
+                    let stream = compressed
+                        .map(|c| c.unpack(document, buffers, primitive, &mut budget))
+                        .transpose();
+                    let stream = match stream {
+                        Err(problem) if draco::is_optional(document, primitive) => {
+                            warnings.add(format!(
+                                "{place}, {}: {problem}: its accessors are used instead",
+                                draco::NAME
+                            ));
+                            None
+                        }
+                        stream => stream.map_err(wrong)?,
+                    };
+                    let reader = Reader {
+                        document,
+                        buffers,
+                        primitive,
+                        stream,
+                        place: place.clone(),
+                    };
                     let drawn = reader.read(mode, tangent_set, &mut budget, warnings)?;
                     let drawn = geometry.take(drawn, &mesh.name);
                     known.insert(key, drawn);
@@ -147,23 +161,12 @@ impl Geometry {
     }
 }
 
-/// The extension that holds a primitive's geometry, where its accessors have no bytes for it.
-fn compression(document: &Document, primitive: &Primitive) -> Option<&'static str> {
-    let others = &primitive.extensions.as_ref()?.others;
-    let name = COMPRESSIONS
-        .into_iter()
-        .find(|&name| others.contains_key(name))?;
-    let has_bytes = |index: usize| {
-        let accessor = document.root.accessors.get(index);
-        // One that does not exist is left to be an error.
-        accessor.is_none_or(|a| a.buffer_view.is_some() || a.sparse.is_some())
-    };
-    let accessors = primitive.attributes.values().chain(&primitive.indices);
-    let whole = accessors.into_iter().all(|index| has_bytes(index.value()));
-    (!whole).then_some(name)
-}
-
-fn key(primitive: &Primitive, mode: Mode, tangent_set: Option<u8>) -> Key {
+fn key(
+    primitive: &Primitive,
+    compressed: &Option<draco::Compressed>,
+    mode: Mode,
+    tangent_set: Option<u8>,
+) -> Key {
     let attributes = primitive.attributes.iter();
     let attributes = attributes
         .filter_map(|(semantic, accessor)| match semantic {
@@ -172,7 +175,14 @@ fn key(primitive: &Primitive, mode: Mode, tangent_set: Option<u8>) -> Key {
         })
         .collect();
     let indices = primitive.indices.map(|index| index.value());
-    (attributes, indices, mode.as_gl_enum(), tangent_set)
+    let compressed = compressed.clone();
+    (
+        attributes,
+        indices,
+        compressed,
+        mode.as_gl_enum(),
+        tangent_set,
+    )
 }
 
 fn warn_of_missing_coordinates(
@@ -200,19 +210,12 @@ fn warn_of_missing_coordinates(
 
 /// The error for a file of which nothing can be seen.
 pub(super) fn nothing_to_draw(document: &Document, geometry: &Geometry) -> Error {
-    let Some(extension) = geometry.compressed_by else {
-        let what = if geometry.not_finite > 0 {
-            "its triangles have positions that are no numbers"
-        } else if geometry.points + geometry.lines > 0 {
-            "it shows points and lines only, which are not supported"
-        } else {
-            "no node of its scene shows a triangle"
-        };
-        return document.malformed("", format!("has nothing to draw: {what}"));
+    let what = if geometry.not_finite > 0 {
+        "its triangles have positions that are no numbers"
+    } else if geometry.points + geometry.lines > 0 {
+        "it shows points and lines only, which are not supported"
+    } else {
+        "no node of its scene shows a triangle"
     };
-    Error::Unsupported {
-        file: document.file.clone(),
-        what: format!("has its geometry in {extension}, which is not supported"),
-        way_out: extensions::way_out(extension).into(),
-    }
+    document.malformed("", format!("has nothing to draw: {what}"))
 }

@@ -6,9 +6,9 @@
 use super::Warnings;
 use super::document::{Document, named};
 use super::implicit_shapes::Shapes;
-use super::{extensions, lights_punctual};
+use super::{extensions, lights_punctual, mesh_gpu_instancing};
 use crate::Error;
-use crate::load::{Node, choice};
+use crate::load::{ModelMesh, Node, choice};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use gltf::json::Node as NodeJson;
 
@@ -21,9 +21,9 @@ pub(super) struct Tree {
     pub(super) roots: Vec<usize>,
 }
 
-/// What nodes may hold: how many meshes there are, and where in the model each camera and light of the file went.
+/// What nodes may hold: the file's meshes, and where in the model each of its cameras and lights went.
 pub(super) struct Contents<'a> {
-    pub(super) meshes: usize,
+    pub(super) shapes: &'a [ModelMesh],
     pub(super) cameras: &'a [Option<usize>],
     pub(super) lights: &'a [Option<usize>],
     pub(super) implicit: &'a Shapes,
@@ -38,6 +38,7 @@ pub(super) struct Contents<'a> {
 pub(super) fn read(
     document: &Document,
     contents: &Contents,
+    mut instancing: mesh_gpu_instancing::Reader,
     warnings: &mut Warnings,
 ) -> Result<Tree, Error> {
     let count = document.root.nodes.len();
@@ -66,7 +67,17 @@ pub(super) fn read(
     let roots = roots(document, &parents, &order, warnings)?;
     let mut nodes = Vec::with_capacity(count);
     for (index, below) in children.into_iter().enumerate() {
-        nodes.push(one(document, index, below, contents, warnings)?);
+        let mut node = one(document, index, below, contents, warnings)?;
+        let shape = node.shape.and_then(|shape| contents.shapes.get(shape));
+        if let Some(shape) = shape {
+            let instances = instancing.read(&document.root.nodes[index], shape.parts.len());
+            let instances = instances.map_err(|problem| {
+                let name = mesh_gpu_instancing::NAME;
+                document.malformed(format!("{}, {name}", place(document, index)), problem)
+            })?;
+            node.instances = instances;
+        }
+        nodes.push(node);
     }
     let mut tree = Tree { nodes, roots };
     tree.cut_what_is_nowhere(warnings);
@@ -190,7 +201,9 @@ fn one(
     let json = &document.root.nodes[index];
     let place = || place(document, index);
     let shape = match json.mesh {
-        Some(mesh) => Some(document.checked(place(), "mesh", mesh.value(), contents.meshes)?),
+        Some(mesh) => {
+            Some(document.checked(place(), "mesh", mesh.value(), contents.shapes.len())?)
+        }
         None => None,
     };
     let camera = match json.camera {
@@ -224,6 +237,7 @@ fn one(
         analytic: contents
             .implicit
             .of_node(document, others, &place(), warnings)?,
+        instances: None,
         camera,
         light,
     })
@@ -241,21 +255,33 @@ fn to_parent(json: &NodeJson, warnings: &mut Warnings) -> DAffine3 {
         }
         return DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z), w);
     }
-    let vector = |v: Option<[f32; 3]>| v.map(|v| DVec3::from(v.map(f64::from)));
-    let rotation = json.rotation.map_or(DQuat::IDENTITY, |rotation| {
-        let rotation = DQuat::from_array(rotation.0.map(f64::from));
-        if rotation.length_squared() > 0.0 {
-            rotation.normalize()
-        } else {
-            warnings.add("a node's rotation without length is ignored");
-            DQuat::IDENTITY
-        }
-    });
+    let rotation = json.rotation.map(|rotation| rotation.0);
+    if rotation == Some([0.0; 4]) {
+        warnings.add("a node's rotation without length is ignored");
+    }
+    transform(json.translation, rotation, json.scale)
+}
+
+/// `translation * rotation * scale`; a rotation without length is none.
+pub(super) fn transform(
+    translation: Option<[f32; 3]>,
+    rotation: Option<[f32; 4]>,
+    scale: Option<[f32; 3]>,
+) -> DAffine3 {
+    let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
+    let rotation = rotation.map(|rotation| DQuat::from_array(rotation.map(f64::from)));
     DAffine3::from_scale_rotation_translation(
-        vector(json.scale).unwrap_or(DVec3::ONE),
-        rotation,
-        vector(json.translation).unwrap_or_default(),
+        scale.map_or(DVec3::ONE, vector),
+        rotation
+            .filter(|rotation| *rotation != DQuat::from_array([0.0; 4]))
+            .map_or(DQuat::IDENTITY, DQuat::normalize),
+        translation.map_or(DVec3::ZERO, vector),
     )
+}
+
+fn is_of_32_bits(transform: &DAffine3) -> bool {
+    let numbers = transform.to_cols_array();
+    numbers.iter().all(|x| x.abs() <= f64::from(f32::MAX))
 }
 
 impl Tree {
@@ -270,11 +296,14 @@ impl Tree {
         while let Some((index, above)) = open.pop() {
             let node = &mut self.nodes[index];
             let to_model = above * node.to_parent;
-            let is_somewhere = to_model
-                .to_cols_array()
-                .iter()
-                .all(|x| x.abs() <= f64::from(f32::MAX));
-            if is_somewhere {
+            if is_of_32_bits(&to_model) {
+                if let Some(instances) = &mut node.instances {
+                    let count = instances.len();
+                    instances.retain(|instance| is_of_32_bits(&(to_model * *instance)));
+                    let problem =
+                        "an instance whose transform is not of finite numbers is not drawn";
+                    warnings.add_times(problem, count - instances.len());
+                }
                 if node.to_parent.matrix3.determinant() == 0.0 {
                     let place = named("node", index, Some(&node.name));
                     warnings.add(format!(
