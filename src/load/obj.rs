@@ -8,8 +8,10 @@
 //! What is read how:
 //!
 //! - A shape is an object (`o`), in files without one a group (`g`); a part of it is what has one material.
-//! - A face without normals is flat. Smoothing groups are not followed.
-//! - Colours after a vertex are sRGB, as painting and scanning programs write them.
+//! - A face without normals is flat, or smooth where a smoothing group is on: see `obj/smooth.rs`.
+//! - Colours after a vertex, or after many of them in `#MRGB`, are sRGB, as painting and scanning programs write them.
+//! - What cannot be drawn (points, lines, curves, surfaces) is counted. `call` and `csh`, which have other files read
+//!   and programs started, are ignored like every statement that luch does not know.
 //! - `v` of texture coordinates is turned over: OBJ's image begins at its lower edge, luch's at its upper one.
 //! - Materials: see `obj/materials.rs`. Pictures of heights become normals: see `obj/bump.rs`.
 
@@ -24,11 +26,13 @@ mod mtl;
 mod numbers;
 mod polygon;
 mod reader;
+mod smooth;
 mod text;
 mod textures;
 
 use super::{Facts, Model, ModelMesh, Node, Options, Part, Warnings, files, tangents};
 use crate::Error;
+use find::Finder;
 use geometry::Geometry;
 use libraries::{folder_of, read_libraries};
 use meshes::{Mended, MeshMaker};
@@ -44,7 +48,7 @@ const MOST_BYTES: usize = u32::MAX as usize;
 /// # Errors
 ///
 /// The file cannot be read, has a line that makes no sense, or nothing to draw. A missing MTL or texture is a warning.
-pub fn open(path: &Path, _options: &Options) -> Result<Model, Error> {
+pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
     let bytes = files::read(path)?;
     if bytes.len() > MOST_BYTES {
         return Err(Error::Unsupported {
@@ -56,13 +60,14 @@ pub fn open(path: &Path, _options: &Options) -> Result<Model, Error> {
     let mut geometry = Geometry::read(&text::plain(&bytes))
         .map_err(|bad| Error::malformed(path, format!("line {}", bad.line), bad.problem))?;
     drop(bytes);
+    smooth::add_normals(&mut geometry);
     let mut model = Model {
         file: path.to_owned(),
         files: vec![path.to_owned()],
         warnings: std::mem::take(&mut geometry.warnings),
         ..Model::default()
     };
-    let material_of = add_materials(&mut model, &geometry);
+    let material_of = add_materials(&mut model, &geometry, options);
     add_shapes(&mut model, &geometry, &material_of);
     if model.shapes.is_empty() {
         let problem = "has nothing to draw, expected a face with finite vertices";
@@ -79,9 +84,9 @@ pub fn open(path: &Path, _options: &Options) -> Result<Model, Error> {
 }
 
 /// Reads MTLs and textures; for each material that the geometry names, its index in the model. The default comes last.
-fn add_materials(model: &mut Model, geometry: &Geometry) -> Vec<u32> {
+fn add_materials(model: &mut Model, geometry: &Geometry, options: &Options) -> Vec<u32> {
     let folder = folder_of(&model.file);
-    let mut textures = Textures::default();
+    let mut textures = Textures::new(Finder::new(&model.file, options));
     let known = read_libraries(model, geometry, &folder, &mut textures.finder);
     let mut indices = Vec::with_capacity(geometry.materials.len());
     for name in &geometry.materials {

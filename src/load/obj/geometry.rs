@@ -25,6 +25,8 @@ pub(super) struct Face {
     pub(super) line: u32,
     /// Where in the list of corners the next face begins.
     pub(super) end: u32,
+    /// Whether a smoothing group is on.
+    pub(super) is_smooth: bool,
 }
 
 /// Faces of one object and one material.
@@ -62,6 +64,8 @@ pub(super) struct Geometry {
     pub(super) groups: Vec<Group>,
     /// Of `o`, or of `g` in a file without `o`.
     pub(super) objects: Vec<String>,
+    /// Whether there is an `o`.
+    pub(super) has_objects: bool,
     /// Of `usemtl`.
     pub(super) materials: Vec<String>,
     /// What stands after each `mtllib`.
@@ -92,9 +96,18 @@ impl Geometry {
 
     /// The corners of a face.
     pub(super) fn face(&self, face: u32) -> &[Corner] {
+        self.corners.get(self.range(face)).unwrap_or_default()
+    }
+
+    /// The corners of a face, to be changed.
+    pub(super) fn face_mut(&mut self, face: u32) -> &mut [Corner] {
+        let range = self.range(face);
+        self.corners.get_mut(range).unwrap_or_default()
+    }
+
+    fn range(&self, face: u32) -> Range<usize> {
         let face = face as usize;
         let end_of = |face: usize| self.faces.get(face).map_or(0, |face| face.end as usize);
-        let start = face.checked_sub(1).map_or(0, end_of);
-        self.corners.get(start..end_of(face)).unwrap_or_default()
+        face.checked_sub(1).map_or(0, end_of)..end_of(face)
     }
 }

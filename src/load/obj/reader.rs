@@ -53,7 +53,8 @@ pub(super) struct Reader {
     runs: Vec<Run>,
     run_start: u32,
     smooths: bool,
-    smooth_faces: usize,
+    /// Colours of `#MRGB`, of the vertices just before the next one.
+    painted: Vec<[u8; 3]>,
     weighted: usize,
     strayed: usize,
     brightest: f32,
@@ -67,6 +68,7 @@ impl Reader {
             return Ok(());
         };
         match keyword {
+            b"#MRGB" => self.polypaint(words),
             [b'#', ..] => {}
             b"v" => return self.vertex(words),
             b"vt" => {
@@ -97,7 +99,7 @@ impl Reader {
                 self.material = (!name.is_empty()).then(|| self.materials.index(name));
             }
             b"mtllib" => self.read.libraries.push(name(words.rest())),
-            b"s" => self.smooths = !matches!(words.next(), None | Some(b"off" | b"0")),
+            b"s" => self.smooths = !matches!(words.next(), None | Some(b"off" | b"0" | b"null")),
             unknown => self.read.warnings.add(format!(
                 "statement \"{}\" is not supported and ignored",
                 shown(unknown)
@@ -110,6 +112,7 @@ impl Reader {
     fn vertex(&mut self, words: Words) -> Result<(), String> {
         let (numbers, count) = numbers::<7>(words, 3, "a vertex", "x y z")?;
         let [x, y, z, fourth, g, b, a] = numbers;
+        self.end_polypaint();
         let before = self.read.positions.len();
         self.read.positions.push(Vec3::new(x, y, z));
         let color = match count {
@@ -135,12 +138,41 @@ impl Reader {
         Ok(())
     }
 
+    /// ZBrush's colours: eight hexadecimal digits each, a mask, red, green and blue, for as many vertices before it.
+    fn polypaint(&mut self, words: Words) {
+        for word in words {
+            for digits in word.as_chunks::<8>().0 {
+                let text = str::from_utf8(digits).unwrap_or_default();
+                let Ok(color) = u32::from_str_radix(text, 16) else {
+                    return;
+                };
+                let [_, r, g, b] = color.to_be_bytes();
+                self.painted.push([r, g, b]);
+            }
+        }
+    }
+
+    /// Gives the colours of `#MRGB` to their vertices, the latest.
+    fn end_polypaint(&mut self) {
+        if self.painted.is_empty() {
+            return;
+        }
+        let count = self.read.positions.len();
+        self.read.colors.resize(count, WHITE);
+        let skipped = self.painted.len().saturating_sub(count);
+        let first = count.saturating_sub(self.painted.len());
+        let colors = self.read.colors.get_mut(first..).unwrap_or_default();
+        for (color, painted) in colors.iter_mut().zip(self.painted.iter().skip(skipped)) {
+            let [r, g, b] = painted.map(|channel| f32::from(channel) / 255.0);
+            *color = [r, g, b, 1.0];
+        }
+        self.painted.clear();
+    }
+
     fn face(&mut self, line: u32, words: Words) -> Result<(), String> {
         let start = self.read.corners.len();
-        let mut has_normals = true;
         for word in words.take_while(|word| !word.starts_with(b"#")) {
             let corner = self.corner(word)?;
-            has_normals &= corner.normal != NONE;
             self.read.corners.push(corner);
         }
         match self.read.corners.len() - start {
@@ -149,8 +181,12 @@ impl Reader {
             2 => self.read.lines += 1,
             _ => {
                 let end = self.read.corners.len() as u32;
-                self.read.faces.push(Face { line, end });
-                self.smooth_faces += usize::from(self.smooths && !has_normals);
+                let is_smooth = self.smooths;
+                self.read.faces.push(Face {
+                    line,
+                    end,
+                    is_smooth,
+                });
                 return Ok(());
             }
         }
@@ -214,6 +250,7 @@ impl Reader {
     /// All of it, checked.
     pub(super) fn finish(mut self) -> Result<Geometry, BadLine> {
         self.end_run();
+        self.end_polypaint();
         self.check_indices()?;
         self.sort_into_groups();
         self.finish_colors();
@@ -227,10 +264,6 @@ impl Reader {
         warnings.add_times(
             "a corner names a texture coordinate or a normal that is not there, and has none",
             self.strayed,
-        );
-        warnings.add_times(
-            "a face without normals is flat: smoothing groups are not supported",
-            self.smooth_faces,
         );
         self.read.materials = self.materials.list;
         Ok(self.read)
@@ -266,6 +299,7 @@ impl Reader {
 
     fn sort_into_groups(&mut self) {
         let has_objects = !self.objects.list.is_empty();
+        self.read.has_objects = has_objects;
         let mut names = if has_objects {
             std::mem::take(&mut self.objects)
         } else {

@@ -30,6 +30,14 @@ pub(super) struct Textures {
 }
 
 impl Textures {
+    /// None yet.
+    pub(super) fn new(finder: Finder) -> Textures {
+        Textures {
+            finder,
+            ..Textures::default()
+        }
+    }
+
     /// A texture of colours; `None`, and a warning, where it cannot be had.
     pub(super) fn color(&mut self, map: Option<&Map>) -> Option<TextureUse> {
         let map = map?;
@@ -118,9 +126,11 @@ impl Textures {
                 ));
                 path
             }
-            Found::Missing => {
-                self.warnings
-                    .add(format!("texture \"{shown}\" is missing and not used"));
+            absent => {
+                self.warnings.add(match absent {
+                    Found::Refused(why) => format!("texture \"{shown}\" {why}; it is not used"),
+                    _ => format!("texture \"{shown}\" is missing and not used"),
+                });
                 if self.missing.insert(map.name.clone()) {
                     self.facts.push(TextureFacts {
                         name: map.name.clone(),
