@@ -13,17 +13,23 @@
 //! - What cannot be drawn (points, lines, curves, surfaces) is counted. `call` and `csh`, which have other files read
 //!   and programs started, are ignored like every statement that luch does not know.
 //! - `v` of texture coordinates is turned over: OBJ's image begins at its lower edge, luch's at its upper one.
-//! - Materials: see `obj/materials.rs`. Pictures of heights become normals: see `obj/bump.rs`.
+//! - A face that makes no sense is left out; a vertex that makes no sense is an error, since indices count them.
+//! - Materials: see `obj/materials.rs`, `obj/pbr.rs` and `obj/glass.rs`. Pictures of heights become normals: see
+//!   `obj/bump.rs`.
+//! - Blender 4.5 was the measure: of the 168 files of a collection that both read, they agree in triangles, area,
+//!   shading normals and colours in all but a few where Blender is further from what the file says.
 
 mod bump;
 mod find;
 mod geometry;
+mod glass;
 mod libraries;
 mod map;
 mod materials;
 mod meshes;
 mod mtl;
 mod numbers;
+mod pbr;
 mod polygon;
 mod reader;
 mod smooth;
@@ -70,8 +76,13 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
     let material_of = add_materials(&mut model, &geometry, options);
     add_shapes(&mut model, &geometry, &material_of);
     if model.shapes.is_empty() {
-        let problem = "has nothing to draw, expected a face with finite vertices";
-        return Err(Error::malformed(path, "", problem));
+        return Err(match geometry.first_dropped {
+            Some(bad) => Error::malformed(path, format!("line {}", bad.line), bad.problem),
+            None => {
+                let problem = "has nothing to draw, expected a face with finite vertices";
+                Error::malformed(path, "", problem)
+            }
+        });
     }
     model.facts = Facts {
         format: "OBJ".into(),

@@ -4,7 +4,7 @@
 use crate::load::Options;
 use std::collections::HashMap;
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// Where a file lies.
 #[derive(Debug, PartialEq, Eq)]
@@ -58,12 +58,29 @@ impl Finder {
         self.allows_external || path.canonicalize().is_ok_and(lies_below)
     }
 
+    /// Whether the words of a path alone lead out.
+    fn leads_out(&self, folder: &Path, reference: &str) -> bool {
+        let folder = if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            folder
+        };
+        let mut path = folder.canonicalize().unwrap_or_default();
+        for component in Path::new(reference).components() {
+            match component {
+                Component::ParentDir => drop(path.pop()),
+                other => path.push(other),
+            }
+        }
+        !self.roots.iter().any(|root| path.starts_with(root))
+    }
+
     /// Looks for `reference` from each of `folders`, the earlier first.
     ///
-    /// Backslashes part folders as slashes do. Of a path that is absolute or leads out of the model's folder only the
+    /// Backslashes part folders as slashes do, except before blanks, which they keep in a name. Of a path that is absolute or leads out of the model's folder only the
     /// name is looked for, unless files elsewhere are allowed.
     pub(super) fn find(&mut self, reference: &str, folders: &[PathBuf]) -> Found {
-        let reference = reference.replace('\\', "/");
+        let reference = reference.replace("\\ ", " ").replace('\\', "/");
         let name = reference.rsplit('/').next().unwrap_or_default();
         if name.is_empty() || name == "." || name == ".." {
             return Found::Missing;
@@ -80,16 +97,22 @@ impl Finder {
         if is_foreign {
             refused = Some(LEADS_OUT);
         } else {
-            // An absolute path replaces the folder.
-            for path in folders.iter().map(|folder| folder.join(&reference)) {
-                let is_allowed = self.allows(&path);
-                if path.is_file() && is_allowed {
+            for folder in folders {
+                // An absolute path replaces the folder.
+                let path = folder.join(&reference);
+                if path.is_file() && self.allows(&path) {
                     return Found::AsNamed(path);
                 }
-                if path.is_file() {
+                // Whether it is there is not said of what leads out.
+                if !self.allows_external && self.leads_out(folder, &reference) {
                     refused = Some(LEADS_OUT);
                 } else if path.exists() {
-                    refused = refused.or(Some(if is_allowed { NO_FILE } else { LEADS_OUT }));
+                    let why = if self.allows(&path) {
+                        NO_FILE
+                    } else {
+                        LEADS_OUT
+                    };
+                    refused = refused.or(Some(why));
                 }
             }
         }
@@ -177,6 +200,7 @@ mod tests {
             assert_eq!(find(folder.path(), reference), at(reference));
         }
         assert_eq!(find(folder.path(), "maps\\Oak.png"), at("maps/Oak.png"));
+        assert_eq!(find(folder.path(), "a\\ b.png"), at("a b.png"));
     }
 
     #[test]
@@ -209,7 +233,14 @@ mod tests {
         // Inside, however the path goes about it.
         let about = "../maps/Oak.png";
         assert_eq!(find(&below, about), Found::AsNamed(below.join(about)));
-        for reference in ["file:///etc/passwd", "C:/gone.png", "http://a.b/c.png"] {
+        for reference in [
+            "file:///etc/passwd",
+            "C:/gone.png",
+            "http://a.b/c.png",
+            "/gone.png",
+            "../gone.png",
+            "a/../../gone.png",
+        ] {
             assert_eq!(find(&below, reference), Found::Refused(LEADS_OUT));
         }
     }

@@ -9,7 +9,7 @@ use std::ops::Range;
 /// Stands for a texture coordinate or a normal that a corner does not name.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A corner of a face: indices into the lists of a [`Geometry`], in range.
+/// A corner of a face: indices into the lists of a [`Geometry`], in range, or [`NOWHERE`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Corner {
     pub(super) position: u32,
@@ -18,6 +18,13 @@ pub(super) struct Corner {
     /// Or [`NONE`].
     pub(super) normal: u32,
 }
+
+/// Stands for the corners of a face that is left out.
+pub(super) const NOWHERE: Corner = Corner {
+    position: NONE,
+    uv: NONE,
+    normal: NONE,
+};
 
 /// A polygon of three corners or more.
 #[derive(Clone, Copy, Debug)]
@@ -70,6 +77,8 @@ pub(super) struct Geometry {
     pub(super) materials: Vec<String>,
     /// What stands after each `mtllib`.
     pub(super) libraries: Vec<String>,
+    /// The first face that is left out for its wrong line.
+    pub(super) first_dropped: Option<BadLine>,
     pub(super) points: usize,
     pub(super) lines: usize,
     pub(super) warnings: Warnings,
@@ -80,7 +89,8 @@ impl Geometry {
     ///
     /// # Errors
     ///
-    /// The first line that makes no sense: without it the indices after it would mean other things.
+    /// The first vertex, texture coordinate or normal that makes no sense: without it the indices after it would mean
+    /// other things. A face that makes no sense is left out.
     pub(super) fn read(text: &[u8]) -> Result<Geometry, BadLine> {
         let mut reader = Reader::default();
         let mut lines = Lines::new(text);
@@ -91,7 +101,7 @@ impl Geometry {
             };
             reader.statement(line.number, line.text).map_err(bad)?;
         }
-        reader.finish()
+        Ok(reader.finish())
     }
 
     /// The corners of a face.

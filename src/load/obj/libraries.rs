@@ -5,6 +5,7 @@ use super::geometry::Geometry;
 use super::mtl::{self, MtlMaterial};
 use super::text::{plain, shown};
 use crate::load::{Model, files};
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -76,9 +77,8 @@ fn read_namesake(
     }
     let mut more = HashMap::new();
     read_library(model, &path, &mut more);
-    for (name, material) in more {
-        known.entry(name).or_insert(material);
-    }
+    more.retain(|name, _| !known.contains_key(name));
+    known.extend(more);
     let shown = shown(name.as_bytes());
     model.warnings.add(format!(
         "materials that no mtllib leads to are looked for in \"{shown}\", which has the model's name"
@@ -148,10 +148,12 @@ fn read_library(model: &mut Model, path: &Path, known: &mut HashMap<String, Know
     for mtl in mtl::read(&plain(&bytes), &file, &mut model.warnings) {
         let (name, shown) = (mtl.name.clone(), shown(mtl.name.as_bytes()));
         let folder = folder.clone();
-        if known.insert(name, Known { mtl, folder }).is_some() {
-            model.warnings.add(format!(
-                "{file}: material \"{shown}\" was there before; the later one counts"
-            ));
+        match known.entry(name) {
+            // As in Blender.
+            Entry::Occupied(_) => model.warnings.add(format!(
+                "{file}: material \"{shown}\" was there before; the earlier one counts"
+            )),
+            Entry::Vacant(place) => drop(place.insert(Known { mtl, folder })),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! From the faces of one object and one material to a mesh.
 
-use super::geometry::{Corner, Geometry, Group, NONE};
+use super::geometry::{Corner, Geometry, Group, NONE, NOWHERE};
 use super::polygon::{Triangulator, newell_normal};
 use crate::mesh::Mesh;
 use glam::{DVec3, Vec2, Vec3};
@@ -88,6 +88,9 @@ impl<'a> MeshMaker<'a> {
     fn add_face(&mut self, mesh: &mut Mesh, face: u32, has_normals: bool) -> usize {
         let geometry = self.geometry;
         let corners = geometry.face(face);
+        if corners.first() == Some(&NOWHERE) {
+            return 0;
+        }
         let polygon = corners
             .iter()
             .map(|&corner| position(geometry, corner).as_dvec3());
@@ -157,12 +160,6 @@ impl Weld {
         }
     }
 }
-
-const NOWHERE: Corner = Corner {
-    position: NONE,
-    uv: NONE,
-    normal: NONE,
-};
 
 fn position(geometry: &Geometry, corner: Corner) -> Vec3 {
     let position = geometry.positions.get(corner.position as usize);

@@ -1,6 +1,6 @@
 //! An OBJ file, statement by statement.
 
-use super::geometry::{BadLine, Corner, Face, Geometry, Group, NONE};
+use super::geometry::{BadLine, Corner, Face, Geometry, Group, NONE, NOWHERE};
 use super::numbers::{Index, index, no_such, numbers};
 use super::text::{Words, name, shown};
 use crate::color::srgb_to_linear;
@@ -55,6 +55,7 @@ pub(super) struct Reader {
     smooths: bool,
     /// Colours of `#MRGB`, of the vertices just before the next one.
     painted: Vec<[u8; 3]>,
+    dropped: usize,
     weighted: usize,
     strayed: usize,
     brightest: f32,
@@ -82,7 +83,13 @@ impl Reader {
                 self.read.normals.push(unit.as_vec3());
             }
             // `fo` is what `f` was called before version 2.11 of the format.
-            b"f" | b"fo" => return self.face(line, words),
+            b"f" | b"fo" => {
+                let start = self.read.corners.len();
+                if let Err(problem) = self.face(line, words) {
+                    self.read.corners.truncate(start);
+                    self.drop_face(line, problem);
+                }
+            }
             b"p" => self.read.points += words.count(),
             b"l" => self.read.lines += words.count().saturating_sub(1),
             b"o" => {
@@ -194,6 +201,15 @@ impl Reader {
         Ok(())
     }
 
+    /// Goes on without a face: no index after it means another thing for that.
+    fn drop_face(&mut self, line: u32, problem: String) {
+        self.dropped += 1;
+        let first = &mut self.read.first_dropped;
+        if first.as_ref().is_none_or(|first| line < first.line) {
+            *first = Some(BadLine { line, problem });
+        }
+    }
+
     fn corner(&mut self, word: &[u8]) -> Result<Corner, String> {
         let mut parts = word.split(|&byte| byte == b'/');
         let mut part = |kind, count| match parts.next() {
@@ -248,10 +264,10 @@ impl Reader {
     }
 
     /// All of it, checked.
-    pub(super) fn finish(mut self) -> Result<Geometry, BadLine> {
+    pub(super) fn finish(mut self) -> Geometry {
         self.end_run();
         self.end_polypaint();
-        self.check_indices()?;
+        self.check_indices();
         self.sort_into_groups();
         self.finish_colors();
         let warnings = &mut self.read.warnings;
@@ -265,26 +281,36 @@ impl Reader {
             "a corner names a texture coordinate or a normal that is not there, and has none",
             self.strayed,
         );
+        if let Some(BadLine { line, problem }) = &self.read.first_dropped {
+            let first = format!("line {line}: {problem}; the face is left out");
+            warnings.add(first);
+            warnings.add_times(
+                "a further face with a wrong line is left out",
+                self.dropped.saturating_sub(1),
+            );
+        }
         self.read.materials = self.materials.list;
-        Ok(self.read)
+        self.read
     }
 
-    /// Only now: a face may name vertices that come after it. Without its vertex a face has no shape; without a texture
-    /// coordinate or a normal it still has one.
-    fn check_indices(&mut self) -> Result<(), BadLine> {
+    /// Only now: a face may name vertices that come after it. Without its vertex a face has no shape and is left out;
+    /// without a texture coordinate or a normal it still has one.
+    fn check_indices(&mut self) {
         let read = &mut self.read;
         let count = read.positions.len();
         let (uvs, normals) = (read.uvs.len(), read.normals.len());
         let mut start = 0;
+        let mut missing = Vec::new();
         for face in &read.faces {
             let end = face.end as usize;
-            for corner in read.corners.get_mut(start..end).unwrap_or_default() {
-                if corner.position as usize >= count {
-                    return Err(BadLine {
-                        line: face.line,
-                        problem: no_such("vertex", u64::from(corner.position) + 1, count),
-                    });
-                }
+            let corners = read.corners.get_mut(start..end).unwrap_or_default();
+            start = end;
+            if let Some(bad) = corners.iter().find(|c| c.position as usize >= count) {
+                missing.push((face.line, u64::from(bad.position) + 1));
+                corners.iter_mut().for_each(|corner| *corner = NOWHERE);
+                continue;
+            }
+            for corner in corners {
                 for (index, count) in [(&mut corner.uv, uvs), (&mut corner.normal, normals)] {
                     if *index as usize >= count && *index != NONE {
                         *index = NONE;
@@ -292,9 +318,10 @@ impl Reader {
                     }
                 }
             }
-            start = end;
         }
-        Ok(())
+        for (line, index) in missing {
+            self.drop_face(line, no_such("vertex", index, count));
+        }
     }
 
     fn sort_into_groups(&mut self) {
