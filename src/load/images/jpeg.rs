@@ -5,7 +5,7 @@
 //! options could not do it: `set_use_unsafe(false)` leaves AVX2 on (`use_avx2` in zune-core 0.5.3 takes either of two
 //! flags). So no other dependency may switch these features on: `cargo tree -e features -i zune-jpeg` shows who does.
 
-use super::{check_size, most_pixels, said};
+use super::{Header, most_pixels, rgba, said};
 use crate::texture::Pixels;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
@@ -15,36 +15,66 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 /// No JPEG has more for each byte of its file: the least is one bit for 64 pixels.
 const MOST_PIXELS_A_BYTE: u64 = 1 << 10;
 
-/// Width, height and pixels.
-pub(super) fn decode(bytes: &[u8]) -> Result<(u32, u32, Pixels), String> {
-    let said = |error| said("JPEG", error);
+/// Follows the name of an image without its end, which every viewer shows as far as it goes.
+const CUT_SHORT: &str = "is cut short, what there is of it is shown";
+
+/// What the header says.
+///
+/// # Errors
+///
+/// One line.
+pub(super) fn header(bytes: &[u8]) -> Result<Header, String> {
+    let mut decoder = decoder(bytes);
+    decoder.decode_headers().map_err(|e| said("JPEG", e))?;
+    let (width, height) = decoder.dimensions().unwrap_or_default();
+    let most = most_pixels(bytes, MOST_PIXELS_A_BYTE);
+    Header::checked(width as u64, height as u64, 1, most)
+}
+
+/// The pixels of a file whose header is right, and what is wrong with them.
+///
+/// How a camera was held (EXIF) is ignored, as glTF wants it (section 3.8.3).
+///
+/// # Errors
+///
+/// One line.
+pub(super) fn decode(
+    bytes: &[u8],
+    header: &Header,
+) -> Result<(Pixels, Option<&'static str>), String> {
+    let mut decoder = decoder(bytes);
+    let read = |buffer: &mut [u8]| {
+        decoder
+            .decode_headers()
+            .map_err(|error| said("JPEG", error))?;
+        let expected = decoder.output_buffer_size();
+        if expected != Some(buffer.len()) {
+            return Err("broken JPEG: its size is in doubt".into());
+        }
+        decoder
+            .decode_into(buffer)
+            .map_err(|error| said("JPEG", error))
+    };
+    let pixels = rgba::eight::<3>(header, read)?;
+    Ok((pixels, (!has_end(bytes)).then_some(CUT_SHORT)))
+}
+
+fn decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
     // RGB rather than RGBA: for RGBA the decoder (0.5.15) steps through CMYK images in rows of a wrong length.
     let options = DecoderOptions::new_safe()
         .set_max_width(u16::MAX.into())
         .set_max_height(u16::MAX.into())
         .jpeg_set_out_colorspace(ColorSpace::RGB);
-    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
-    decoder.decode_headers().map_err(said)?;
-    let (width, height) = decoder.dimensions().unwrap_or_default();
-    check_size(
-        width as u64,
-        height as u64,
-        most_pixels(bytes, MOST_PIXELS_A_BYTE),
-    )?;
-    let rgb = decoder.decode().map_err(said)?;
-    let pixels: Vec<[u8; 4]> = rgb
-        .as_chunks::<3>()
-        .0
-        .iter()
-        .map(|&[r, g, b]| [r, g, b, 255])
-        .collect();
-    if pixels.len() != width * height {
-        return Err(format!(
-            "broken JPEG: {} pixels for {width} x {height}",
-            pixels.len()
-        ));
-    }
-    Ok((width as u32, height as u32, Pixels::Eight(pixels)))
+    JpegDecoder::new_with_options(ZCursor::new(bytes), options)
+}
+
+/// Whether there is an end-of-image marker after the last start of a scan. No pixel's bits look like either.
+fn has_end(bytes: &[u8]) -> bool {
+    let marker = bytes
+        .windows(2)
+        .rev()
+        .find(|pair| matches!(pair, [0xff, 0xd9 | 0xda]));
+    marker == Some(&[0xff, 0xd9])
 }
 
 #[cfg(test)]
@@ -61,11 +91,14 @@ mod tests {
 
     /// The four corners against what Pillow 13.0 (libjpeg-turbo) decodes: the standard leaves decoders the last bit.
     fn assert_corners(jpeg: &str, width: usize, height: usize, expected: [[i32; 3]; 4]) {
-        let (found_width, found_height, pixels) = decode(&from_hex(jpeg)).unwrap();
+        let bytes = from_hex(jpeg);
+        let header = header(&bytes).unwrap();
         assert_eq!(
-            (found_width as usize, found_height as usize),
+            (header.width as usize, header.height as usize),
             (width, height)
         );
+        let (pixels, flaw) = decode(&bytes, &header).unwrap();
+        assert_eq!(flaw, None);
         let Pixels::Eight(pixels) = pixels else {
             panic!("8 bits expected")
         };

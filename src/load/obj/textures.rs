@@ -143,7 +143,12 @@ impl Textures {
                 images::decode(&name, &bytes).map_err(|problem| format!("{name}: {problem}"))
             });
         let image = match decoded {
-            Ok(image) => Some(Arc::new(image)),
+            Ok(decoded) => {
+                if let Some(flaw) = decoded.flaw {
+                    self.warnings.add(format!("{name}: {flaw}"));
+                }
+                Some(Arc::new(decoded.image))
+            }
             Err(problem) => {
                 self.warnings
                     .add(format!("{problem}; the texture is not used"));
