@@ -188,4 +188,6 @@ fn said(kind: &str, error: impl std::fmt::Display) -> String {
 }
 
 #[cfg(test)]
+mod samples;
+#[cfg(test)]
 mod tests;

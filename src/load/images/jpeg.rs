@@ -15,6 +15,9 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 /// No JPEG has more for each byte of its file: the least is one bit for 64 pixels.
 const MOST_PIXELS_A_BYTE: u64 = 1 << 10;
 
+/// The end-of-image marker.
+const END: [u8; 2] = [0xff, 0xd9];
+
 /// Follows the name of an image without its end, which every viewer shows as far as it goes.
 const CUT_SHORT: &str = "is cut short, what there is of it is shown";
 
@@ -42,21 +45,26 @@ pub(super) fn decode(
     bytes: &[u8],
     header: &Header,
 ) -> Result<(Pixels, Option<&'static str>), String> {
+    let whole = rgba::eight::<3>(header, |buffer| read(bytes, buffer));
+    if has_end(bytes) {
+        return whole.map(|pixels| (pixels, None));
+    }
+    // Where the file ends within a header between two scans, the decoder gives nothing: it is shown the scans before.
+    let pixels = whole.or_else(|problem| {
+        let mut ended = up_to_last_marker(bytes).ok_or(problem)?.to_vec();
+        ended.extend(END);
+        rgba::eight::<3>(header, |buffer| read(&ended, buffer))
+    })?;
+    Ok((pixels, Some(CUT_SHORT)))
+}
+
+fn read(bytes: &[u8], buffer: &mut [u8]) -> Result<(), String> {
     let mut decoder = decoder(bytes);
-    let read = |buffer: &mut [u8]| {
-        decoder
-            .decode_headers()
-            .map_err(|error| said("JPEG", error))?;
-        let expected = decoder.output_buffer_size();
-        if expected != Some(buffer.len()) {
-            return Err("broken JPEG: its size is in doubt".into());
-        }
-        decoder
-            .decode_into(buffer)
-            .map_err(|error| said("JPEG", error))
-    };
-    let pixels = rgba::eight::<3>(header, read)?;
-    Ok((pixels, (!has_end(bytes)).then_some(CUT_SHORT)))
+    decoder.decode_headers().map_err(|e| said("JPEG", e))?;
+    if decoder.output_buffer_size() != Some(buffer.len()) {
+        return Err("broken JPEG: its size is in doubt".into());
+    }
+    decoder.decode_into(buffer).map_err(|e| said("JPEG", e))
 }
 
 fn decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
@@ -70,24 +78,24 @@ fn decoder(bytes: &[u8]) -> JpegDecoder<ZCursor<&[u8]>> {
 
 /// Whether there is an end-of-image marker after the last start of a scan. No pixel's bits look like either.
 fn has_end(bytes: &[u8]) -> bool {
-    let marker = bytes
-        .windows(2)
-        .rev()
-        .find(|pair| matches!(pair, [0xff, 0xd9 | 0xda]));
-    marker == Some(&[0xff, 0xd9])
+    let mut pairs = bytes.windows(2).rev();
+    let marker = pairs.find(|pair| matches!(pair, [0xff, 0xd9 | 0xda]));
+    marker == Some(&END)
+}
+
+/// What stands before the last marker that ends a scan: no byte stuffed into the pixels, no restart.
+fn up_to_last_marker(bytes: &[u8]) -> Option<&[u8]> {
+    let ends = |pair: &[u8]| matches!(pair, [0xff, 0x01..=0xcf | 0xd8..=0xfe]);
+    let last = bytes.windows(2).rposition(ends)?;
+    bytes.get(..last)
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+    use super::super::samples::from_hex;
     use super::*;
-
-    fn from_hex(hex: &str) -> Vec<u8> {
-        (0..hex.len() / 2)
-            .map(|i| u8::from_str_radix(&hex[2 * i..2 * i + 2], 16).unwrap())
-            .collect()
-    }
 
     /// The four corners against what Pillow 13.0 (libjpeg-turbo) decodes: the standard leaves decoders the last bit.
     fn assert_corners(jpeg: &str, width: usize, height: usize, expected: [[i32; 3]; 4]) {

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+use super::samples::{self, from_hex};
 use super::*;
 use crate::texture::Pixels;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, Rgba};
@@ -87,10 +88,9 @@ fn gif_is_read() {
 fn what_luch_does_not_read_is_refused_by_name() {
     let refused = |bytes: &[u8]| decode("", bytes).unwrap_err();
     assert_eq!(
-        refused(b"RIFF\x1a\0\0\0WEBPVP8L"),
-        "is a WebP image, which is not supported; use PNG or JPEG"
+        refused(b"\0\0\0\x1cftypavif"),
+        "is an AVIF image, which is not supported; use PNG or JPEG"
     );
-    assert!(refused(b"\xabKTX 20\xbb\r\n\x1a\n").starts_with("is a KTX2 image"));
     assert!(refused(b"DDS |\0\0\0").starts_with("is a DDS image"));
     assert_eq!(refused(b""), "is empty");
     assert_eq!(
@@ -126,4 +126,127 @@ fn a_broken_file_is_one_line() {
         assert!(!problem.contains('\n'), "{problem}");
     }
     assert!(decode("", b"\xff\xd8\xff\xe0").is_err());
+}
+
+/// The greatest difference of any channel of a file from what another program reads in it.
+fn difference(file: &str, expected: &str) -> u8 {
+    let found = eight("", &from_hex(file));
+    let (found, expected) = (found.as_flattened(), from_hex(expected));
+    assert_eq!(found.len(), expected.len());
+    let pairs = found.iter().zip(expected);
+    pairs.map(|(&a, b)| a.abs_diff(b)).max().unwrap()
+}
+
+#[test]
+fn basis_universal_is_what_its_own_transcoder_says() {
+    assert_eq!(difference(samples::ETC1S, samples::ETC1S_PIXELS), 0);
+    assert_eq!(difference(samples::UASTC, samples::UASTC_PIXELS), 0);
+    assert_eq!(difference(samples::UASTC_ZSTD, samples::UASTC_PIXELS), 0);
+}
+
+#[test]
+fn webp_is_what_libwebp_says() {
+    for (file, expected) in [
+        (samples::WEBP_LOSSY, samples::WEBP_LOSSY_PIXELS),
+        (samples::WEBP_LOSSLESS, samples::WEBP_LOSSLESS_PIXELS),
+        (samples::WEBP_ANIMATION, samples::WEBP_ANIMATION_PIXELS),
+    ] {
+        assert_eq!(difference(file, expected), 0);
+    }
+}
+
+#[test]
+fn jpeg_is_what_libjpeg_says_but_for_rounding() {
+    for (file, expected) in [
+        (samples::JPEG_PROGRESSIVE, samples::JPEG_PROGRESSIVE_PIXELS),
+        (samples::JPEG_YCCK, samples::JPEG_YCCK_PIXELS),
+        (samples::JPEG_RESTARTS, samples::JPEG_RESTARTS_PIXELS),
+    ] {
+        assert!(difference(file, expected) <= 4);
+    }
+}
+
+#[test]
+fn a_jpeg_that_is_cut_short_shows_what_there_is() {
+    let whole = from_hex(samples::JPEG_PROGRESSIVE);
+    assert_eq!(decode("", &whole).unwrap().flaw, None);
+    let first_scan = whole.windows(2).position(|pair| pair == [0xff, 0xda]);
+    let mut shown = 0;
+    for length in first_scan.unwrap() + 20..whole.len() - 1 {
+        if let Ok(found) = decode("", &whole[..length]) {
+            assert_eq!(
+                found.flaw,
+                Some("is cut short, what there is of it is shown")
+            );
+            shown += 1;
+        }
+    }
+    let lengths = whole.len() - 1 - first_scan.unwrap() - 20;
+    assert!(shown * 10 > lengths * 9, "{shown} of {lengths}");
+}
+
+#[test]
+fn a_broken_or_changed_file_of_a_rarer_kind_is_no_panic() {
+    for file in [
+        samples::ETC1S,
+        samples::UASTC,
+        samples::UASTC_ZSTD,
+        samples::WEBP_LOSSY,
+        samples::WEBP_LOSSLESS,
+        samples::WEBP_ANIMATION,
+        samples::JPEG_PROGRESSIVE,
+        samples::JPEG_YCCK,
+    ] {
+        let whole = from_hex(file);
+        for at in 0..whole.len() {
+            // Any outcome but a panic.
+            let _ = decode("", &whole[..at]);
+            for with in [0, 1, 0x7f, 0xff] {
+                let mut changed = whole.clone();
+                changed[at] = with;
+                let _ = decode("", &changed);
+            }
+        }
+    }
+}
+
+#[test]
+fn ktx2_that_luch_does_not_read_is_refused_by_its_numbers() {
+    let refused = |at: usize, with: u32| {
+        let mut bytes = from_hex(samples::UASTC);
+        bytes[at..at + 4].copy_from_slice(&with.to_le_bytes());
+        decode("", &bytes).unwrap_err()
+    };
+    assert_eq!(
+        refused(12, 37),
+        "is a KTX2 image in Vulkan's format 37, which is not supported; use Basis Universal, PNG or JPEG"
+    );
+    assert_eq!(
+        refused(36, 6),
+        "is a KTX2 image of 5 x 6 x 0 pixels in 0 layers and 6 faces, expected one flat picture"
+    );
+    assert_eq!(
+        refused(44, 3),
+        "is a KTX2 image of colour model 166 with supercompression 3, which is not supported; use ETC1S with BasisLZ, \
+         or UASTC plain or with Zstandard"
+    );
+    assert_eq!(
+        refused(24, 4096),
+        "broken KTX2: its first level is not the 32768 bytes of 5 x 4096 pixels"
+    );
+    assert_eq!(
+        refused(80, u32::MAX),
+        "broken KTX2: its first level is not in the file"
+    );
+}
+
+#[test]
+fn a_header_tells_how_much_memory_the_pixels_take() {
+    let bytes = |file| header("", &from_hex(file)).unwrap().bytes_decoded();
+    assert_eq!(bytes(samples::ETC1S), 5 * 6 * 4);
+    assert_eq!(bytes(samples::WEBP_LOSSY), 5 * 6 * 4);
+    assert_eq!(bytes(samples::JPEG_YCCK), 10 * 9 * 4);
+    let grey = ImageBuffer::from_pixel(3, 2, Luma([513_u16]));
+    let png = encoded(DynamicImage::ImageLuma16(grey), ImageFormat::Png);
+    assert_eq!(header("", &png).map(|h| h.bytes_decoded()), Ok(3 * 2 * 8));
 }
