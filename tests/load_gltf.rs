@@ -6,4 +6,5 @@ mod geometry;
 mod materials;
 mod nodes;
 mod seen;
+mod textures;
 mod wrong;
