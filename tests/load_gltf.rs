@@ -7,4 +7,5 @@ mod implicit_shapes;
 mod materials;
 mod nodes;
 mod seen;
+mod textures;
 mod wrong;

@@ -16,6 +16,7 @@ mod draco;
 mod elements;
 mod emissive_strength;
 mod extensions;
+mod images;
 mod implicit_shapes;
 mod json;
 mod lights_punctual;
@@ -30,6 +31,10 @@ mod notes;
 mod primitive_modes;
 mod primitives;
 mod sparse;
+mod texture_basisu;
+mod texture_info;
+mod texture_transform;
+mod texture_webp;
 mod textures;
 mod uri;
 

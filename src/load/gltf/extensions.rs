@@ -3,7 +3,8 @@
 use super::document::{Document, one_line};
 use super::{
     Warnings, draco, emissive_strength, implicit_shapes, lights_punctual, materials_unlit,
-    mesh_gpu_instancing, mesh_quantization, meshopt, notes,
+    mesh_gpu_instancing, mesh_quantization, meshopt, notes, texture_basisu, texture_transform,
+    texture_webp,
 };
 use crate::Error;
 use crate::load::{Ask, Treatment};
@@ -24,6 +25,9 @@ const KNOWN: &[(&str, Treatment)] = &[
     (materials_unlit::NAME, Treatment::Honoured),
     (notes::NAMES[0], Treatment::Approximated(notes::HOW)),
     (notes::NAMES[1], Treatment::Approximated(notes::HOW)),
+    (texture_basisu::NAME, Treatment::Honoured),
+    (texture_transform::NAME, Treatment::Honoured),
+    (texture_webp::NAME, Treatment::Honoured),
 ];
 
 /// What luch does with an extension.

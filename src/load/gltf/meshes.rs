@@ -8,6 +8,7 @@ use crate::Error;
 use crate::load::{ModelMesh, Part};
 use crate::material::Material;
 use crate::mesh::Mesh;
+use crate::texture::TextureUse;
 use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked;
 use std::collections::HashMap;
@@ -41,7 +42,7 @@ type Key = (
     Option<usize>,
     Option<draco::Compressed>,
     u32,
-    Option<u8>,
+    Option<(u8, Option<[u32; 9]>)>,
 );
 
 /// Reads every mesh of the file. The last of `materials` is the default.
@@ -89,10 +90,10 @@ pub(super) fn all(
                 );
             };
             let normal_map = materials.get(material).and_then(|m| m.normal_map.as_ref());
-            let tangent_set = normal_map.map(|map| map.texture.uv_set);
+            let normal_map = normal_map.map(|map| &map.texture);
             let wrong = |problem| document.malformed(format!("{place}, {}", draco::NAME), problem);
             let compressed = draco::of(primitive).map_err(wrong)?;
-            let key = key(primitive, &compressed, mode, tangent_set);
+            let key = key(primitive, &compressed, mode, normal_map);
             let drawn = match known.get(&key) {
                 Some(&drawn) => drawn,
                 None => {
@@ -116,7 +117,7 @@ pub(super) fn all(
                         stream,
                         place: place.clone(),
                     };
-                    let drawn = reader.read(mode, tangent_set, &mut budget, warnings)?;
+                    let drawn = reader.read(mode, normal_map, &mut budget, warnings)?;
                     let drawn = geometry.take(drawn, &mesh.name);
                     known.insert(key, drawn);
                     drawn
@@ -165,7 +166,7 @@ fn key(
     primitive: &Primitive,
     compressed: &Option<draco::Compressed>,
     mode: Mode,
-    tangent_set: Option<u8>,
+    normal_map: Option<&TextureUse>,
 ) -> Key {
     let attributes = primitive.attributes.iter();
     let attributes = attributes
@@ -176,13 +177,11 @@ fn key(
         .collect();
     let indices = primitive.indices.map(|index| index.value());
     let compressed = compressed.clone();
-    (
-        attributes,
-        indices,
-        compressed,
-        mode.as_gl_enum(),
-        tangent_set,
-    )
+    let tangents = normal_map.map(|map| {
+        let transform = map.transform.map(|m| m.to_cols_array().map(f32::to_bits));
+        (map.uv_set, transform)
+    });
+    (attributes, indices, compressed, mode.as_gl_enum(), tangents)
 }
 
 fn warn_of_missing_coordinates(

@@ -10,6 +10,7 @@ use super::primitive_modes;
 use crate::Error;
 use crate::load::tangents::{self, TooCrowded};
 use crate::mesh::Mesh;
+use crate::texture::TextureUse;
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::accessor::Type;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -42,7 +43,7 @@ pub(super) enum Drawn {
 }
 
 impl Reader<'_> {
-    /// Reads the primitive. `tangent_set` is the set of texture coordinates of a normal map, where there is one.
+    /// Reads the primitive. `normal_map` is the use of a texture for which it needs tangents.
     ///
     /// # Errors
     ///
@@ -51,7 +52,7 @@ impl Reader<'_> {
     pub(super) fn read(
         mut self,
         mode: Mode,
-        tangent_set: Option<u8>,
+        normal_map: Option<&TextureUse>,
         budget: &mut u64,
         warnings: &mut Warnings,
     ) -> Result<Drawn, Error> {
@@ -78,8 +79,8 @@ impl Reader<'_> {
         let problem = "a triangle with a position that is no number is not drawn";
         warnings.add_times(format!("{}: {problem}", self.place), left_out);
         self.attributes(&mut mesh, &kept, positions.count, warnings)?;
-        if let Some(set) = tangent_set {
-            mesh = self.tangents(mesh, &kept, positions.count, usize::from(set), warnings)?;
+        if let Some(map) = normal_map {
+            mesh = self.tangents(mesh, &kept, positions.count, map, warnings)?;
         }
         Ok(Drawn::Triangles(mesh, left_out))
     }
@@ -121,15 +122,17 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's.
+    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's. The
+    /// file's stay as they are where the map is turned (KHR_texture_transform): who wrote them knew of that.
     fn tangents(
         &self,
         mut mesh: Mesh,
         kept: &Kept,
         count: usize,
-        set: usize,
+        map: &TextureUse,
         warnings: &mut Warnings,
     ) -> Result<Mesh, Error> {
+        let set = usize::from(map.uv_set);
         let given = self.attribute(&Semantic::Tangents, "TANGENT", &[Type::Vec4], count)?;
         if let Some(tangents) = given.filter(|_| !mesh.normals.is_empty()) {
             mesh.tangents = kept.gather(&tangents, |tangent| {
@@ -146,7 +149,7 @@ impl Reader<'_> {
             ));
             return Ok(mesh);
         }
-        if let Err(TooCrowded) = tangents::add(&mut mesh, set) {
+        if let Err(TooCrowded) = tangents::add(&mut mesh, set, map.transform.as_ref()) {
             warnings.add(format!(
                 "{}: too many corners meet in one point for tangents, so that its normal map is ignored",
                 self.place

@@ -197,11 +197,16 @@ impl Textures {
             .map_err(|error| error.to_string())
             .and_then(|bytes| {
                 self.files.push(path.clone());
-                images::decode(&name, &bytes, &self.budget)
+                images::decode_within(&name, &bytes, &self.budget)
                     .map_err(|problem| format!("{name}: {problem}"))
             });
         let image = match decoded {
-            Ok(image) => Some(Arc::new(image)),
+            Ok(decoded) => {
+                if let Some(flaw) = decoded.flaw {
+                    self.warnings.add(format!("{name}: {flaw}"));
+                }
+                Some(Arc::new(decoded.image))
+            }
             Err(problem) => {
                 self.warnings
                     .add(format!("{problem}; the texture is not used"));
