@@ -145,6 +145,7 @@ impl Reader<'_, '_> {
             roughness: self.share("roughnessFactor", pbr.roughness_factor.0),
             metallic_roughness,
             occlusion,
+            finish: None,
         })
     }
 
