@@ -16,11 +16,26 @@ mod extensions;
 mod json;
 mod lights_punctual;
 mod materials;
+mod materials_anisotropy;
+mod materials_clearcoat;
+mod materials_diffuse_transmission;
+mod materials_dispersion;
+mod materials_extensions;
+mod materials_ior;
+mod materials_iridescence;
+mod materials_sheen;
+mod materials_specular;
+mod materials_specular_glossiness;
+mod materials_transmission;
 mod materials_unlit;
+mod materials_variants;
+mod materials_volume;
 mod meshes;
 mod nodes;
 mod primitive_modes;
 mod primitives;
+mod texture_info;
+mod texture_transform;
 mod textures;
 mod uri;
 
@@ -28,6 +43,7 @@ use super::{Facts, Model, Options, Warnings, files};
 use crate::Error;
 use buffers::Buffers;
 use document::{Document, one_line};
+use materials_variants::Variants;
 use nodes::Contents;
 use std::path::Path;
 use textures::Textures;
@@ -52,10 +68,13 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
     let extensions = extensions::check(&document, &mut warnings)?;
     let buffers = Buffers::read(&document, container.binary)?;
 
-    let used = materials::textures_used(&document);
+    let variants = Variants::read(&document, &mut warnings)?;
+
+    let extended = materials_extensions::of_materials(&document, &mut warnings);
+    let used = materials::textures_used(&document, &extended);
     let mut textures = Textures::decode(&document, &buffers, &used, &mut warnings);
-    let materials = materials::all(&document, &mut textures, &mut warnings)?;
-    let geometry = meshes::all(&document, &buffers, &materials, &mut warnings)?;
+    let materials = materials::all(&document, &extended, &mut textures, &mut warnings)?;
+    let geometry = meshes::all(&document, &buffers, &materials, &variants, &mut warnings)?;
     let (cameras, camera_indices) = compact(cameras::all(&document, &mut warnings));
     let (lights, light_indices) = compact(lights_punctual::all(&document, &mut warnings));
     let contents = Contents {
@@ -76,6 +95,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
         textures: textures.facts,
         animations: root.animations.iter().map(|a| name(&a.name)).collect(),
         extensions,
+        variants: variants.names,
     };
     let own = [path.to_owned()];
     let mut model = Model {

@@ -105,6 +105,8 @@ pub struct Facts {
     pub textures: Vec<TextureFacts>,
     /// Names of animations; empty strings where they have none.
     pub animations: Vec<String>,
+    /// Names of the variants of materials; empty strings where they have none.
+    pub variants: Vec<String>,
     /// Each extension the file uses, with what luch does about it.
     pub extensions: Vec<ExtensionFacts>,
 }

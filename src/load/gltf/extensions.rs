@@ -1,7 +1,12 @@
 //! Which extensions luch honours, and what a file asks of them. One more is one more file and one more line here.
 
 use super::document::{Document, one_line};
-use super::{Warnings, emissive_strength, lights_punctual, materials_unlit};
+use super::{
+    Warnings, emissive_strength, lights_punctual, materials_anisotropy, materials_clearcoat,
+    materials_diffuse_transmission, materials_dispersion, materials_ior, materials_iridescence,
+    materials_sheen, materials_specular, materials_specular_glossiness, materials_transmission,
+    materials_unlit, materials_variants, materials_volume, texture_transform,
+};
 use crate::Error;
 use crate::load::{ExtensionFacts, Treatment};
 use serde::de::DeserializeOwned;
@@ -12,7 +17,23 @@ use std::collections::HashSet;
 const KNOWN: &[(&str, Treatment)] = &[
     (emissive_strength::NAME, Treatment::Honoured),
     (lights_punctual::NAME, Treatment::Honoured),
+    (materials_anisotropy::NAME, Treatment::Approximated),
+    (materials_clearcoat::NAME, Treatment::Approximated),
+    (
+        materials_diffuse_transmission::NAME,
+        Treatment::Approximated,
+    ),
+    (materials_dispersion::NAME, Treatment::Approximated),
+    (materials_ior::NAME, Treatment::Honoured),
+    (materials_iridescence::NAME, Treatment::Approximated),
+    (materials_sheen::NAME, Treatment::Honoured),
+    (materials_specular::NAME, Treatment::Honoured),
+    (materials_specular_glossiness::NAME, Treatment::Honoured),
+    (materials_transmission::NAME, Treatment::Approximated),
     (materials_unlit::NAME, Treatment::Honoured),
+    (materials_variants::NAME, Treatment::Honoured),
+    (materials_volume::NAME, Treatment::Honoured),
+    (texture_transform::NAME, Treatment::Honoured),
 ];
 
 /// What luch does with an extension.

@@ -2,7 +2,10 @@
 
 use super::document::{Document, named};
 use super::emissive_strength::{self, EmissiveStrength};
+use super::materials_extensions::Extended;
 use super::materials_unlit::{self, Unlit};
+use super::texture_info::TextureInfo;
+use super::texture_transform::{self, TextureTransform};
 use super::textures::Textures;
 use super::{Warnings, extensions};
 use crate::Error;
@@ -17,8 +20,9 @@ use gltf::json::validation::Checked;
 use std::collections::BTreeSet;
 
 /// The textures that materials use, by their index in the file.
-pub(super) fn textures_used(document: &Document) -> BTreeSet<usize> {
+pub(super) fn textures_used(document: &Document, extended: &[Extended]) -> BTreeSet<usize> {
     let materials = document.root.materials.iter();
+    let of_extensions = extended.iter().flat_map(Extended::textures);
     materials
         .flat_map(|material| {
             let pbr = &material.pbr_metallic_roughness;
@@ -33,29 +37,31 @@ pub(super) fn textures_used(document: &Document) -> BTreeSet<usize> {
             infos.into_iter().chain([normal, occlusion]).flatten()
         })
         .map(|index| index.value())
+        .chain(of_extensions)
         .collect()
 }
 
-/// The materials of a file, and the default one after them.
+/// The materials of a file, of which `extended` says what extensions do, and the default one after them.
 ///
 /// # Errors
 ///
 /// A material names a texture that does not exist.
 pub(super) fn all(
     document: &Document,
+    extended: &[Extended],
     textures: &mut Textures,
     warnings: &mut Warnings,
 ) -> Result<Vec<Material>, Error> {
-    let materials = document.root.materials.iter().enumerate();
+    let materials = document.root.materials.iter().zip(extended).enumerate();
     let mut read: Vec<Material> = Vec::with_capacity(document.root.materials.len() + 1);
-    for (index, json) in materials {
+    for (index, (json, extended)) in materials {
         let place = named("material", index, json.name.as_ref());
         let mut reader = Reader {
             place,
             textures,
             warnings,
         };
-        read.push(reader.material(json)?);
+        read.push(reader.material(json, extended)?);
     }
     let place = String::new();
     let mut reader = Reader {
@@ -63,89 +69,101 @@ pub(super) fn all(
         textures,
         warnings,
     };
-    read.push(reader.material(&MaterialJson::default())?);
+    read.push(reader.material(&MaterialJson::default(), &Extended::default())?);
     Ok(read)
 }
 
-struct Reader<'a, 'd> {
+/// Where one material is read from, and what it is called in messages.
+pub(super) struct Reader<'a, 'd> {
     place: String,
     textures: &'a mut Textures<'d>,
     warnings: &'a mut Warnings,
 }
 
 impl Reader<'_, '_> {
-    fn material(&mut self, json: &MaterialJson) -> Result<Material, Error> {
-        let pbr = &json.pbr_metallic_roughness;
-        let [r, g, b, a] = pbr
-            .base_color_factor
-            .0
-            .map(|c| self.share("baseColorFactor", c));
-        let base_texture = match &pbr.base_color_texture {
-            Some(info) => self.texture(
-                "base colour",
-                info.index.value(),
-                info.tex_coord,
-                Encoding::Srgb,
-            )?,
-            None => None,
-        };
-        let base_color = Textured {
-            factor: Rgb::new(r, g, b),
-            texture: base_texture.clone(),
-        };
-        let coverage = Textured {
-            factor: a,
-            texture: base_texture,
-        };
+    fn material(&mut self, json: &MaterialJson, extended: &Extended) -> Result<Material, Error> {
         let others = json.extensions.as_ref().map(|e| &e.others);
         let unlit = extensions::read::<Unlit>(others, materials_unlit::NAME);
-        let model = match self.valid(unlit) {
-            Some(Unlit {}) => Model::Unlit { color: base_color },
-            None => Model::MetallicRoughness(self.metallic_roughness(json, base_color)?),
+        let unlit = self.valid(unlit);
+        let mut transmission = None;
+        let (model, coverage) = match (&unlit, &extended.specular_glossiness) {
+            (Some(Unlit {}), _) => {
+                let (color, coverage) = self.base_color(json)?;
+                (Model::Unlit { color }, coverage)
+            }
+            (None, Some(glossy)) => {
+                let (diffuse, coverage) = glossy.diffuse(self)?;
+                let occlusion = self.occlusion(json)?;
+                let model = glossy.read(diffuse, occlusion, self)?;
+                (Model::SpecularGlossiness(model), coverage)
+            }
+            (None, None) => {
+                let (base_color, coverage) = self.base_color(json)?;
+                let model = self.metallic_roughness(json, base_color, extended)?;
+                transmission = extended.transmission(self)?;
+                (Model::MetallicRoughness(model), coverage)
+            }
         };
         Ok(Material {
             name: json.name.clone().unwrap_or_default(),
             model,
             emission: self.emission(json)?,
             alpha: self.alpha(json, coverage),
-            transmission: None,
+            transmission,
             normal_map: self.normal_map(json)?,
             double_sided: json.double_sided,
         })
+    }
+
+    /// The base colour and its coverage.
+    fn base_color(&mut self, json: &MaterialJson) -> Result<(Textured<Rgb>, Textured<f32>), Error> {
+        let pbr = &json.pbr_metallic_roughness;
+        let [r, g, b, a] = pbr
+            .base_color_factor
+            .0
+            .map(|c| self.share("baseColorFactor", c));
+        let texture = match &pbr.base_color_texture {
+            Some(info) => self.texture("base colour", info, Encoding::Srgb)?,
+            None => None,
+        };
+        let color = Textured {
+            factor: Rgb::new(r, g, b),
+            texture: texture.clone(),
+        };
+        Ok((color, Textured { factor: a, texture }))
     }
 
     fn metallic_roughness(
         &mut self,
         json: &MaterialJson,
         base_color: Textured<Rgb>,
+        extended: &Extended,
     ) -> Result<MetallicRoughness, Error> {
         let pbr = &json.pbr_metallic_roughness;
         let metallic_roughness = match &pbr.metallic_roughness_texture {
             Some(info) => {
                 let name = "metallic-roughness";
-                self.texture(name, info.index.value(), info.tex_coord, Encoding::Linear)?
+                self.texture(name, info, Encoding::Linear)?
             }
             None => None,
-        };
-        let occlusion = match &json.occlusion_texture {
-            Some(info) => Textured {
-                factor: self.share("occlusion strength", info.strength.0),
-                texture: self.texture(
-                    "occlusion",
-                    info.index.value(),
-                    info.tex_coord,
-                    Encoding::Linear,
-                )?,
-            },
-            None => Textured::uniform(1.0),
         };
         Ok(MetallicRoughness {
             base_color,
             metallic: self.share("metallicFactor", pbr.metallic_factor.0),
             roughness: self.share("roughnessFactor", pbr.roughness_factor.0),
             metallic_roughness,
-            occlusion,
-            finish: None,
+            occlusion: self.occlusion(json)?,
+            finish: extended.finish(self)?,
+        })
+    }
+
+    fn occlusion(&mut self, json: &MaterialJson) -> Result<Textured<f32>, Error> {
+        Ok(match &json.occlusion_texture {
+            Some(info) => Textured {
+                factor: self.share("occlusion strength", info.strength.0),
+                texture: self.texture("occlusion", info, Encoding::Linear)?,
+            },
+            None => Textured::uniform(1.0),
         })
     }
 
@@ -159,12 +177,7 @@ impl Reader<'_, '_> {
         let [r, g, b] =
             factor.map(|c| self.within("emissiveFactor", c, super::BRIGHTEST) * strength);
         let texture = match &json.emissive_texture {
-            Some(info) => self.texture(
-                "emissive",
-                info.index.value(),
-                info.tex_coord,
-                Encoding::Srgb,
-            )?,
+            Some(info) => self.texture("emissive", info, Encoding::Srgb)?,
             None => None,
         };
         let factor = Rgb::new(r, g, b);
@@ -195,40 +208,40 @@ impl Reader<'_, '_> {
             return Ok(None);
         };
         let scale = info.scale.clamp(-super::BRIGHTEST, super::BRIGHTEST);
-        let texture = self.texture(
-            "normal",
-            info.index.value(),
-            info.tex_coord,
-            Encoding::Linear,
-        )?;
+        let texture = self.texture("normal", info, Encoding::Linear)?;
         Ok(texture.map(|texture| NormalMap { texture, scale }))
     }
 
-    /// The use of a texture; `None` where it cannot be used, which is warned of.
+    /// The use of a texture, as any slot of the material or of an extension says it; `None` where it cannot be used,
+    /// which is warned of.
     fn texture(
         &mut self,
         kind: &str,
-        index: usize,
-        uv_set: u32,
+        info: impl Into<TextureInfo>,
         encoding: Encoding,
     ) -> Result<Option<TextureUse>, Error> {
+        let info = info.into();
         let place = format!("{}, {kind} texture", self.place);
         let texture = self
             .textures
-            .texture(&place, index, encoding, self.warnings)?;
-        let uv_set = match uv_set {
-            0 | 1 => uv_set as u8,
-            _ => {
+            .texture(&place, info.index, encoding, self.warnings)?;
+        let transform =
+            extensions::read::<TextureTransform>(info.extensions.as_ref(), texture_transform::NAME);
+        let transform = self.valid(transform).unwrap_or_default();
+        let uv_set = match transform.tex_coord.unwrap_or(info.tex_coord) {
+            uv_set @ (0 | 1) => uv_set as u8,
+            uv_set => {
                 self.warnings.add(format!(
                     "{place}: uses TEXCOORD_{uv_set}, luch reads 0 and 1: it is left out"
                 ));
                 return Ok(None);
             }
         };
+        let transform = self.valid(transform.matrix());
         Ok(texture.map(|texture| TextureUse {
             texture,
             uv_set,
-            transform: None,
+            transform,
         }))
     }
 
@@ -240,20 +253,45 @@ impl Reader<'_, '_> {
         })
     }
 
-    fn share(&mut self, field: &str, value: f32) -> f32 {
+    /// The use of a texture that an extension may name.
+    pub(super) fn slot(
+        &mut self,
+        kind: &str,
+        info: &Option<TextureInfo>,
+        encoding: Encoding,
+    ) -> Result<Option<TextureUse>, Error> {
+        match info {
+            Some(info) => self.texture(kind, info.clone(), encoding),
+            None => Ok(None),
+        }
+    }
+
+    pub(super) fn share(&mut self, field: &str, value: f32) -> f32 {
         self.within(field, value, 1.0)
     }
 
     /// `value`, or what is nearest to it from 0 to `most`.
-    fn within(&mut self, field: &str, value: f32, most: f32) -> f32 {
-        let fits = value.clamp(0.0, most);
+    pub(super) fn within(&mut self, field: &str, value: f32, most: f32) -> f32 {
+        self.between(field, value, 0.0, most)
+    }
+
+    /// `value`, or what is nearest to it from `least` to `most`.
+    pub(super) fn between(&mut self, field: &str, value: f32, least: f32, most: f32) -> f32 {
+        let fits = value.clamp(least, most);
         if fits != value {
             self.warn(&format!("its {field} is {value}, taken as {fits}"));
         }
         fits
     }
 
-    fn warn(&mut self, problem: &str) {
+    /// A colour, each channel from 0 to `most`.
+    pub(super) fn color(&mut self, field: &str, value: [f32; 3], most: f32) -> Rgb {
+        value
+            .map(|channel| self.within(field, channel, most))
+            .into()
+    }
+
+    pub(super) fn warn(&mut self, problem: &str) {
         self.warnings.add(format!("{}: {problem}", self.place));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::buffers::Buffers;
 use super::document::{Document, named};
+use super::materials_variants::Variants;
 use super::primitives::{Drawn, Reader};
 use super::{Warnings, extensions};
 use crate::Error;
@@ -52,6 +53,7 @@ pub(super) fn all(
     document: &Document,
     buffers: &Buffers,
     materials: &[Material],
+    variants: &Variants,
     warnings: &mut Warnings,
 ) -> Result<Geometry, Error> {
     let mut geometry = Geometry::default();
@@ -75,8 +77,8 @@ pub(super) fn all(
             };
             let place = reader.place.as_str();
             let default = materials.len().saturating_sub(1);
-            let material = match primitive.material {
-                Some(index) => document.checked(place, "material", index.value(), default)?,
+            let material = match variants.material(primitive, place, warnings) {
+                Some(index) => document.checked(place, "material", index, default)?,
                 None => default,
             };
             if let Some(extension) = compression(document, primitive) {
