@@ -3,6 +3,7 @@
 mod facts;
 mod file;
 mod geometry;
+mod material_extensions;
 mod materials;
 mod nodes;
 mod seen;
