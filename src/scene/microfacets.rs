@@ -114,7 +114,7 @@ impl Scene {
         if let Some(through) = &finish.diffuse_transmission {
             let share = self.number(&through.share, Channel::Alpha, seen);
             let color = self.color(&through.color, seen.vertex);
-            below.diffuse = below.diffuse * (1.0 - share);
+            below.diffuse *= 1.0 - share;
             below.through = color * (share * (1.0 - metallic));
         }
         below.film = finish.iridescence.as_ref().map(|film| {

@@ -75,7 +75,7 @@ pub fn reflectance(p: Parameters, cos_view: f32, emission: Rgb) -> Reflectance {
         // Diffuse light is what is not reflected (KHR_materials_iridescence, `rgb_mix`).
         let [left, before] = [tinted, f0].map(|f| 1.0 - f.max_component().min(1.0));
         let dimmed = (left / before.max(1e-3)).min(1.0);
-        diffuse = diffuse * (1.0 - film.strength + dimmed * film.strength);
+        diffuse *= 1.0 - film.strength + dimmed * film.strength;
         fresnel = fresnel.mix(tinted, film.strength);
         f0 = f0.mix(tinted, film.strength);
     }

@@ -175,7 +175,7 @@ fn an_extension_of_the_wrong_type_costs_itself_alone() {
     assert_eq!(
         warnings,
         [
-            "material \"a\", KHR_materials_clearcoat: invalid type: integer `7`, expected struct Clearcoat: \
+            "material \"a\", KHR_materials_clearcoat: invalid type: integer `7`, expected an object: \
              it is ignored",
             "material \"a\", KHR_materials_sheen: invalid length 2, expected an array of length 3: it is ignored",
         ]

@@ -12,7 +12,7 @@ pub(super) const NAME: &str = "KHR_materials_anisotropy";
 /// What it says. The direction of the grain, its rotation and the texture's red and green, is not read: luch's
 /// highlights are round.
 #[derive(Default, serde::Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct Anisotropy {
     anisotropy_strength: f32,
     /// Strength in blue.

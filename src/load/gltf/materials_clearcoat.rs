@@ -11,7 +11,7 @@ pub(super) const NAME: &str = "KHR_materials_clearcoat";
 
 /// What it says. Its normal texture is not read: the coat has the surface's normal.
 #[derive(Default, serde::Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct Clearcoat {
     clearcoat_factor: f32,
     /// In red.

@@ -11,7 +11,7 @@ pub(super) const NAME: &str = "KHR_materials_diffuse_transmission";
 
 /// What it says.
 #[derive(serde::Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct DiffuseTransmission {
     diffuse_transmission_factor: f32,
     /// In alpha.

@@ -7,7 +7,7 @@ pub(super) const NAME: &str = "KHR_materials_dispersion";
 
 /// What it says.
 #[derive(Default, serde::Deserialize)]
-#[serde(default)]
+#[serde(default, expecting = "an object")]
 pub(super) struct Dispersion {
     /// 20 divided by Abbe's number; above 1 only to exaggerate.
     dispersion: f32,

@@ -12,7 +12,7 @@ const GREATEST: f32 = 1e3;
 
 /// What it says.
 #[derive(serde::Deserialize)]
-#[serde(default)]
+#[serde(default, expecting = "an object")]
 pub(super) struct Ior {
     /// 1 or more; or 0, which stands for infinity: then colours alone say what is reflected.
     ior: f32,

@@ -16,7 +16,7 @@ const GREATEST_THICKNESS: f32 = 1e6;
 
 /// What it says.
 #[derive(serde::Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct Iridescence {
     iridescence_factor: f32,
     /// In red.

@@ -12,7 +12,7 @@ pub(super) const NAME: &str = "KHR_materials_sheen";
 
 /// What it says.
 #[derive(Default, serde::Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct Sheen {
     sheen_color_factor: [f32; 3],
     sheen_color_texture: Option<TextureInfo>,

@@ -12,7 +12,7 @@ pub(super) const NAME: &str = "KHR_materials_specular";
 
 /// What it says.
 #[derive(serde::Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct Specular {
     specular_factor: f32,
     /// In alpha.

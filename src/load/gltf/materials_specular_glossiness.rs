@@ -12,7 +12,7 @@ pub(super) const NAME: &str = "KHR_materials_pbrSpecularGlossiness";
 
 /// What it says.
 #[derive(serde::Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct SpecularGlossiness {
     /// The fourth is coverage.
     diffuse_factor: [f32; 4],

@@ -14,7 +14,7 @@ pub(super) const NAME: &str = "KHR_materials_transmission";
 
 /// What it says.
 #[derive(Default, serde::Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct Transmission {
     transmission_factor: f32,
     /// In red.

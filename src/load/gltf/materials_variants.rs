@@ -9,22 +9,26 @@ use gltf::json::mesh::Primitive;
 pub(super) const NAME: &str = "KHR_materials_variants";
 
 #[derive(serde::Deserialize)]
+#[serde(expecting = "an object")]
 struct OfRoot {
     variants: Vec<Variant>,
 }
 
 #[derive(serde::Deserialize)]
+#[serde(expecting = "an object")]
 struct Variant {
     #[serde(default)]
     name: String,
 }
 
 #[derive(serde::Deserialize)]
+#[serde(expecting = "an object")]
 struct OfPrimitive {
     mappings: Vec<Mapping>,
 }
 
 #[derive(serde::Deserialize)]
+#[serde(expecting = "an object")]
 struct Mapping {
     variants: Vec<u64>,
     material: u64,

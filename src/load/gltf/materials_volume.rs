@@ -8,7 +8,7 @@ pub(super) const NAME: &str = "KHR_materials_volume";
 
 /// What it says. Its texture of thickness is for renderers that cannot measure the way of light; luch's rays do.
 #[derive(serde::Deserialize)]
-#[serde(rename_all = "camelCase", default)]
+#[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct Volume {
     /// 0 for a thin sheet.
     thickness_factor: f32,
