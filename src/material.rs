@@ -1,5 +1,9 @@
 //! What a surface is made of, as its file says it.
 
+mod finish;
+
+pub use finish::{Clearcoat, DiffuseTransmission, Finish, Iridescence, Sheen};
+
 use crate::color::Rgb;
 use crate::texture::{Checker, TextureUse};
 
@@ -48,6 +52,8 @@ pub enum Model {
     Phong(Phong),
     /// Base colour, metalness, roughness: glTF.
     MetallicRoughness(MetallicRoughness),
+    /// Diffuse colour, specular colour, glossiness: glTF's older way (KHR_materials_pbrSpecularGlossiness).
+    SpecularGlossiness(SpecularGlossiness),
     /// A colour that light does not change (KHR_materials_unlit).
     Unlit {
         /// Shown as it is.
@@ -81,6 +87,21 @@ pub struct MetallicRoughness {
     pub roughness: f32,
     /// Multiplies both: roughness in green, metalness in blue.
     pub metallic_roughness: Option<TextureUse>,
+    /// How much a texture's red keeps ambient light away, 0..1.
+    pub occlusion: Textured<f32>,
+    /// What extensions add; few materials have any.
+    pub finish: Option<Box<Finish>>,
+}
+
+/// The parameters of KHR_materials_pbrSpecularGlossiness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpecularGlossiness {
+    /// Albedo, before the specular colour takes its share.
+    pub diffuse: Textured<Rgb>,
+    /// What is reflected head-on.
+    pub specular: Textured<Rgb>,
+    /// 1 less the perceptual roughness, 0..1; the specular texture's alpha multiplies it.
+    pub glossiness: f32,
     /// How much a texture's red keeps ambient light away, 0..1.
     pub occlusion: Textured<f32>,
 }
@@ -198,6 +219,11 @@ impl Material {
                 m.metallic_roughness.as_ref(),
                 m.occlusion.texture.as_ref(),
             ],
+            Model::SpecularGlossiness(m) => [
+                m.diffuse.texture.as_ref(),
+                m.specular.texture.as_ref(),
+                m.occlusion.texture.as_ref(),
+            ],
             Model::Unlit { color } => [color.texture.as_ref(), None, None],
         };
         let of_all = [
@@ -208,20 +234,38 @@ impl Material {
             self.alpha.coverage.texture.as_ref(),
             self.normal_map.as_ref().map(|map| &map.texture),
         ];
-        of_model.into_iter().chain(of_all).flatten()
+        let finish = match &self.model {
+            Model::MetallicRoughness(m) => m.finish.as_deref(),
+            _ => None,
+        };
+        let of_finish = finish.into_iter().flat_map(Finish::textures);
+        of_model
+            .into_iter()
+            .chain(of_all)
+            .flatten()
+            .chain(of_finish)
     }
 
     /// Every use of a texture, to be changed.
     pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut TextureUse> {
+        let mut finish = None;
         let of_model: [Option<&mut TextureUse>; 3] = match &mut self.model {
             Model::Phong(m) => [
                 m.diffuse.texture.as_mut(),
                 m.specular.texture.as_mut(),
                 None,
             ],
-            Model::MetallicRoughness(m) => [
-                m.base_color.texture.as_mut(),
-                m.metallic_roughness.as_mut(),
+            Model::MetallicRoughness(m) => {
+                finish = m.finish.as_deref_mut();
+                [
+                    m.base_color.texture.as_mut(),
+                    m.metallic_roughness.as_mut(),
+                    m.occlusion.texture.as_mut(),
+                ]
+            }
+            Model::SpecularGlossiness(m) => [
+                m.diffuse.texture.as_mut(),
+                m.specular.texture.as_mut(),
                 m.occlusion.texture.as_mut(),
             ],
             Model::Unlit { color } => [color.texture.as_mut(), None, None],
@@ -234,6 +278,11 @@ impl Material {
             self.alpha.coverage.texture.as_mut(),
             self.normal_map.as_mut().map(|map| &mut map.texture),
         ];
-        of_model.into_iter().chain(of_all).flatten()
+        let of_finish = finish.into_iter().flat_map(Finish::textures_mut);
+        of_model
+            .into_iter()
+            .chain(of_all)
+            .flatten()
+            .chain(of_finish)
     }
 }

@@ -4,6 +4,7 @@ mod check;
 mod error;
 mod layout;
 mod look;
+mod microfacets;
 mod mix;
 mod surface;
 

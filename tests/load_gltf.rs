@@ -4,6 +4,7 @@ mod facts;
 mod file;
 mod geometry;
 mod implicit_shapes;
+mod material_extensions;
 mod materials;
 mod nodes;
 mod seen;

@@ -19,7 +19,7 @@ fn there(names: &[&str]) -> String {
     const SHOWN: usize = 8;
     let called = |(index, name): (usize, &&str)| match *name {
         "" => index.to_string(),
-        name => format!("{index} \"{name}\""),
+        name => format!("{index} \"{}\"", shown(name)),
     };
     let shown: Vec<String> = names.iter().enumerate().take(SHOWN).map(called).collect();
     match shown.as_slice() {
@@ -28,6 +28,14 @@ fn there(names: &[&str]) -> String {
         [only] => format!("there is {only}"),
         [first @ .., last] => format!("there are {} and {last}", first.join(", ")),
     }
+}
+
+/// A file's own word on one line, of bounded length.
+fn shown(name: &str) -> String {
+    let whole = name.chars().take(80);
+    whole
+        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
+        .collect()
 }
 
 #[cfg(test)]

@@ -21,7 +21,20 @@ mod implicit_shapes;
 mod json;
 mod lights_punctual;
 mod materials;
+mod materials_anisotropy;
+mod materials_clearcoat;
+mod materials_diffuse_transmission;
+mod materials_dispersion;
+mod materials_extensions;
+mod materials_ior;
+mod materials_iridescence;
+mod materials_sheen;
+mod materials_specular;
+mod materials_specular_glossiness;
+mod materials_transmission;
 mod materials_unlit;
+mod materials_variants;
+mod materials_volume;
 mod mesh_gpu_instancing;
 mod mesh_quantization;
 mod meshes;
@@ -43,6 +56,7 @@ use crate::Error;
 use buffers::Buffers;
 use document::{Document, one_line};
 use implicit_shapes::Shapes;
+use materials_variants::Variants;
 use nodes::Contents;
 use std::path::Path;
 use textures::Textures;
@@ -79,10 +93,13 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
     let extensions = extensions::check(&document, &mut warnings)?;
     let buffers = Buffers::read(&document, container.binary)?;
 
-    let used = materials::textures_used(&document);
+    let variants = Variants::read(&document, &mut warnings)?;
+
+    let extended = materials_extensions::of_materials(&document, &mut warnings);
+    let used = materials::textures_used(&document, &extended);
     let mut textures = Textures::decode(&document, &buffers, &used, &mut warnings);
-    let materials = materials::all(&document, &mut textures, &mut warnings)?;
-    let geometry = meshes::all(&document, &buffers, &materials, &mut warnings)?;
+    let materials = materials::all(&document, &extended, &mut textures, &mut warnings)?;
+    let geometry = meshes::all(&document, &buffers, &materials, &variants, &mut warnings)?;
     let (cameras, camera_indices) = compact(cameras::all(&document, &mut warnings));
     let (lights, light_indices) = compact(lights_punctual::all(&document, &mut warnings));
     let has_meshes = geometry.shapes.iter().any(|shape| !shape.parts.is_empty());
@@ -106,6 +123,7 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
         lines: geometry.lines,
         textures: textures.facts,
         animations: root.animations.iter().map(|a| name(&a.name)).collect(),
+        variants: variants.names,
         asks: asks::all(&document, extensions),
         notes: notes::all(&document),
     };

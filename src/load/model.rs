@@ -109,6 +109,8 @@ pub struct Facts {
     pub textures: Vec<TextureFacts>,
     /// Names of animations; empty strings where they have none.
     pub animations: Vec<String>,
+    /// Names of the variants of materials; empty strings where they have none.
+    pub variants: Vec<String>,
     /// What the file asks for, with what luch does about it.
     pub asks: Vec<Ask>,
     /// What the file says beside the picture.

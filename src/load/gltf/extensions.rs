@@ -2,7 +2,10 @@
 
 use super::document::{Document, one_line};
 use super::{
-    Warnings, draco, emissive_strength, implicit_shapes, lights_punctual, materials_unlit,
+    Warnings, draco, emissive_strength, implicit_shapes, lights_punctual, materials_anisotropy,
+    materials_clearcoat, materials_diffuse_transmission, materials_dispersion, materials_ior,
+    materials_iridescence, materials_sheen, materials_specular, materials_specular_glossiness,
+    materials_transmission, materials_unlit, materials_variants, materials_volume,
     mesh_gpu_instancing, mesh_quantization, meshopt, notes, texture_basisu, texture_transform,
     texture_webp,
 };
@@ -22,7 +25,37 @@ const KNOWN: &[(&str, Treatment)] = &[
     (emissive_strength::NAME, Treatment::Honoured),
     (implicit_shapes::NAME, Treatment::Honoured),
     (lights_punctual::NAME, Treatment::Honoured),
+    (
+        materials_anisotropy::NAME,
+        Treatment::Approximated("a round lobe as high as the long one"),
+    ),
+    (
+        materials_clearcoat::NAME,
+        Treatment::Approximated("a second highlight and mirror along the surface's own normal"),
+    ),
+    (
+        materials_diffuse_transmission::NAME,
+        Treatment::Approximated("ambient light comes through, that of lamps does not"),
+    ),
+    (
+        materials_dispersion::NAME,
+        Treatment::Approximated("three rays, for red, green and blue"),
+    ),
+    (materials_ior::NAME, Treatment::Honoured),
+    (
+        materials_iridescence::NAME,
+        Treatment::Approximated("interference at the angle of the viewer"),
+    ),
+    (materials_sheen::NAME, Treatment::Honoured),
+    (materials_specular::NAME, Treatment::Honoured),
+    (materials_specular_glossiness::NAME, Treatment::Honoured),
+    (
+        materials_transmission::NAME,
+        Treatment::Approximated("a ray goes on, sharp however rough the surface is"),
+    ),
     (materials_unlit::NAME, Treatment::Honoured),
+    (materials_variants::NAME, Treatment::Honoured),
+    (materials_volume::NAME, Treatment::Honoured),
     (notes::NAMES[0], Treatment::Approximated(notes::HOW)),
     (notes::NAMES[1], Treatment::Approximated(notes::HOW)),
     (texture_basisu::NAME, Treatment::Honoured),

@@ -2,6 +2,7 @@
 
 use super::buffers::Buffers;
 use super::document::{Document, named};
+use super::materials_variants::Variants;
 use super::primitives::{Drawn, Reader};
 use super::{Warnings, draco};
 use crate::Error;
@@ -54,6 +55,7 @@ pub(super) fn all(
     document: &Document,
     buffers: &Buffers,
     materials: &[Material],
+    variants: &Variants,
     warnings: &mut Warnings,
 ) -> Result<Geometry, Error> {
     let mut geometry = Geometry::default();
@@ -71,10 +73,8 @@ pub(super) fn all(
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let place = format!("{name}, primitive {number}");
             let default = materials.len().saturating_sub(1);
-            let material = match primitive.material {
-                Some(index) => {
-                    document.checked(place.as_str(), "material", index.value(), default)?
-                }
+            let material = match variants.material(primitive, &place, warnings) {
+                Some(index) => document.checked(place.as_str(), "material", index, default)?,
                 None => default,
             };
             if primitive

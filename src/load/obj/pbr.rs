@@ -36,6 +36,7 @@ pub(super) fn metallic_roughness(
         roughness: replaced(&mtl.roughness_map, roughness.unwrap_or(ROUGHNESS)),
         metallic_roughness: packed,
         occlusion: Textured::uniform(1.0),
+        finish: None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! What cameras, textures, materials and lights must be.
 
 use super::fields::{above_zero, check_color, direction, finite, in_range, index};
+use super::finish::check_finish;
 use crate::camera::{Camera, Fov, Projection};
 use crate::light::{Light, LightKind};
 use crate::material::{Material, Model};
@@ -111,6 +112,15 @@ pub(super) fn check_material(
             check_color(what, "base color", m.base_color.factor)?;
             share("metallic", m.metallic)?;
             share("roughness", m.roughness)?;
+            share("occlusion strength", m.occlusion.factor)?;
+            if let Some(finish) = &m.finish {
+                check_finish(finish, what)?;
+            }
+        }
+        Model::SpecularGlossiness(m) => {
+            check_color(what, "diffuse", m.diffuse.factor)?;
+            check_color(what, "specular", m.specular.factor)?;
+            share("glossiness", m.glossiness)?;
             share("occlusion strength", m.occlusion.factor)?;
         }
         Model::Unlit { color } => check_color(what, "color", color.factor)?,
