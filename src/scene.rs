@@ -6,10 +6,12 @@ mod layout;
 mod look;
 mod mix;
 mod surface;
+mod through;
 
 pub use error::SceneError;
 pub use layout::{InstanceSpace, PlacedInstance, Primitive, Recent};
 pub use surface::{Met, Place, Surface};
+pub use through::{Filter, Through, Way};
 
 use crate::camera::Camera;
 use crate::color::Rgb;
@@ -127,6 +129,7 @@ pub struct Scene {
     /// Of each material that answers light the same way everywhere, how.
     plain: Vec<Option<Reflectance>>,
     lamps: Vec<Lamp>,
+    has_volumes: bool,
 }
 
 impl Scene {
@@ -151,6 +154,7 @@ impl Scene {
         // Last: a camera may have been framed to what was found wrong above.
         check::check_camera(&description.camera)?;
         let plain = description.materials.iter().map(look::plain).collect();
+        let has_volumes = description.materials.iter().any(|m| m.volume().is_some());
         let lamps = description.lights.iter().map(Lamp::of).collect();
         Ok(Scene {
             camera: description.camera,
@@ -166,6 +170,7 @@ impl Scene {
             primitive_count,
             plain,
             lamps,
+            has_volumes,
         })
     }
 
@@ -187,6 +192,11 @@ impl Scene {
     /// The materials, by index.
     pub fn materials(&self) -> &[Material] {
         &self.materials
+    }
+
+    /// Whether light goes into any body, so that it matters how far.
+    pub fn has_volumes(&self) -> bool {
+        self.has_volumes
     }
 
     /// The lights, in the order in which their light is added.

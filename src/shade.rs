@@ -6,6 +6,7 @@ pub mod lambert;
 pub mod metallic_roughness;
 pub mod mirror;
 pub mod phong;
+pub mod refraction;
 
 use crate::color::Rgb;
 use glam::Vec3;

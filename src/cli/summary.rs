@@ -93,6 +93,7 @@ struct Rays {
     transparent: u64,
     shadow: u64,
     mirror: u64,
+    refracted: u64,
     total: u64,
     /// Of the total, those that stopped before they had passed every transparent layer.
     lost_in_layers: u64,
@@ -215,6 +216,7 @@ impl Rays {
             transparent: statistics.transparent_rays,
             shadow: statistics.shadow_rays,
             mirror: statistics.mirror_rays,
+            refracted: statistics.refracted_rays,
             total,
             lost_in_layers: statistics.lost_in_layers,
             millions_per_second: total as f64 / 1e6 / seconds,
@@ -228,6 +230,7 @@ impl Rays {
             (self.transparent, "behind transparent surfaces"),
             (self.shadow, "shadow"),
             (self.mirror, "mirror"),
+            (self.refracted, "refracted"),
         ];
         let kinds = kinds.iter().filter(|(count, _)| *count > 0);
         let kinds: Vec<String> = kinds

@@ -9,7 +9,7 @@ use crate::texture::TextureUse;
 use glam::{Vec3, Vec4};
 
 impl Scene {
-    fn look_up(&self, used: &TextureUse, vertex: &Vertex) -> [f32; 4] {
+    pub(super) fn look_up(&self, used: &TextureUse, vertex: &Vertex) -> [f32; 4] {
         let uv = vertex.uvs[usize::from(used.uv_set != 0)];
         let uv = used
             .transform
@@ -70,16 +70,11 @@ impl Scene {
                     .metallic_roughness
                     .as_ref()
                     .map_or([1.0; 4], |used| self.look_up(used, vertex));
-                let occluded = m
-                    .occlusion
-                    .texture
-                    .as_ref()
-                    .map_or(0.0, |used| 1.0 - self.look_up(used, vertex)[0]);
                 let parameters = metallic_roughness::Parameters {
                     base_color: self.color(&m.base_color, vertex) * tint,
                     metallic: m.metallic * metallic,
                     roughness: m.roughness * roughness,
-                    ambient_access: 1.0 - m.occlusion.factor * occluded,
+                    ambient_access: self.ambient_access(material, vertex),
                 };
                 metallic_roughness::reflectance(parameters, cos_view, emission)
             }
@@ -97,6 +92,16 @@ impl Scene {
                 }
             }
         }
+    }
+
+    /// The share of ambient light that arrives.
+    pub(super) fn ambient_access(&self, material: &Material, vertex: &Vertex) -> f32 {
+        let Model::MetallicRoughness(m) = &material.model else {
+            return 1.0;
+        };
+        let texture = m.occlusion.texture.as_ref();
+        let occluded = texture.map_or(0.0, |used| 1.0 - self.look_up(used, vertex)[0]);
+        1.0 - m.occlusion.factor * occluded
     }
 
     /// The shading normal of the front, bent by a normal map where the mesh says which way is right.
