@@ -163,11 +163,12 @@ pub struct NormalMap {
 pub struct Transmission {
     /// How much of the light that would be diffuse goes through instead, 0..1; a texture's red multiplies it.
     pub share: Textured<f32>,
-    /// The index of refraction of what lies behind the surface.
+    /// The index of refraction of what lies behind the surface; below 1 for a bubble in something denser.
     pub ior: f32,
     /// 20 divided by Abbe's number; 0 bends every colour alike.
     pub dispersion: f32,
-    /// What lies behind the surface, up to the surface where light leaves it; `None` where the surface is a thin sheet.
+    /// What lies behind the surface, up to the surface where light leaves it; `None` where the surface is a thin sheet,
+    /// behind which light goes straight on.
     pub volume: Option<Volume>,
 }
 
@@ -178,6 +179,19 @@ pub struct Volume {
     pub attenuation_color: Rgb,
     /// In the scene's unit; infinity where nothing is lost.
     pub attenuation_distance: f32,
+}
+
+impl Volume {
+    /// The share of light that is left after a way of `length`: Beer's law, `attenuation_color^(length / distance)`
+    /// (KHR_materials_volume).
+    pub fn transmittance(&self, length: f32) -> Rgb {
+        if self.attenuation_distance == f32::INFINITY {
+            return Rgb::WHITE;
+        }
+        let exponent = length.max(0.0) / self.attenuation_distance;
+        let left = |channel: f32| libm::powf(channel, exponent);
+        self.attenuation_color.map(left)
+    }
 }
 
 impl Material {
@@ -203,7 +217,29 @@ impl Material {
 
     /// Whether a ray that meets the front of this material anywhere ends there: the one bit that acceleration knows.
     pub fn is_opaque(&self) -> bool {
-        self.alpha.mode == AlphaMode::Opaque
+        self.alpha.mode == AlphaMode::Opaque && self.transmits().is_none()
+    }
+
+    /// What lets light through, where anything does. A colour that light does not change lets none through, whatever
+    /// its file says, and an index of 0 is glTF's word for a surface that mirrors everything (KHR_materials_ior).
+    pub fn transmits(&self) -> Option<&Transmission> {
+        let lit = !matches!(self.model, Model::Unlit { .. });
+        let transmission = self.transmission.as_ref();
+        transmission.filter(|t| lit && t.share.factor > 0.0 && t.ior > 0.0)
+    }
+
+    /// What lies behind the surface, where it bounds a body that light goes through.
+    pub fn volume(&self) -> Option<&Volume> {
+        self.transmits()?.volume.as_ref()
+    }
+
+    /// What keeps ambient light away, where the model of the material has such a thing.
+    pub fn occlusion(&self) -> Option<&Textured<f32>> {
+        match &self.model {
+            Model::MetallicRoughness(m) => Some(&m.occlusion),
+            Model::SpecularGlossiness(m) => Some(&m.occlusion),
+            Model::Phong(_) | Model::Unlit { .. } => None,
+        }
     }
 
     /// Every use of a texture.

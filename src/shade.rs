@@ -11,6 +11,7 @@ pub mod metallic_roughness;
 pub mod microfacet;
 pub mod mirror;
 pub mod phong;
+pub mod refraction;
 pub mod sheen;
 pub mod specular_glossiness;
 

@@ -96,6 +96,7 @@ struct Rays {
     transparent: u64,
     shadow: u64,
     mirror: u64,
+    refracted: u64,
     total: u64,
     /// Of the total, those that stopped before they had passed every transparent layer.
     lost_in_layers: u64,
@@ -220,6 +221,7 @@ impl Rays {
             transparent: statistics.transparent_rays,
             shadow: statistics.shadow_rays,
             mirror: statistics.mirror_rays,
+            refracted: statistics.refracted_rays,
             total,
             lost_in_layers: statistics.lost_in_layers,
             millions_per_second: total as f64 / 1e6 / seconds,
@@ -233,6 +235,7 @@ impl Rays {
             (self.transparent, "behind transparent surfaces"),
             (self.shadow, "shadow"),
             (self.mirror, "mirror"),
+            (self.refracted, "refracted"),
         ];
         let kinds = kinds.iter().filter(|(count, _)| *count > 0);
         let kinds: Vec<String> = kinds

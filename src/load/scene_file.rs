@@ -13,6 +13,7 @@ mod picture;
 mod shapes;
 mod source;
 mod table;
+mod transmission;
 
 use super::{Asset, Budget, CameraSource, Model, Options, files, gltf, obj};
 use crate::Error;

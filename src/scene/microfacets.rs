@@ -37,7 +37,7 @@ impl Scene {
             .map_or([1.0; 4], |used| self.look_up(used, seen.vertex));
         let base_color = self.color(&m.base_color, seen.vertex) * seen.tint;
         let (metallic, roughness) = (m.metallic * metallic, m.roughness * roughness);
-        let ambient_access = self.ambient_access(&m.occlusion, seen);
+        let ambient_access = self.ambient_access(&m.occlusion, seen.vertex);
         let parameters = |roughness, dielectric| Parameters {
             ambient_access,
             ..metallic_roughness::parameters(base_color, metallic, roughness, dielectric)
@@ -68,17 +68,18 @@ impl Scene {
             m.glossiness * glossiness,
         );
         let parameters = Parameters {
-            ambient_access: self.ambient_access(&m.occlusion, seen),
+            ambient_access: self.ambient_access(&m.occlusion, seen.vertex),
             ..parameters
         };
         microfacet::reflectance(parameters, seen.cos_view, seen.emission)
     }
 
-    fn ambient_access(&self, occlusion: &Textured<f32>, seen: &Seen) -> f32 {
+    /// The share of ambient light that arrives.
+    pub(super) fn ambient_access(&self, occlusion: &Textured<f32>, vertex: &Vertex) -> f32 {
         let occluded = occlusion
             .texture
             .as_ref()
-            .map_or(0.0, |used| 1.0 - self.look_up(used, seen.vertex)[0]);
+            .map_or(0.0, |used| 1.0 - self.look_up(used, vertex)[0]);
         1.0 - occlusion.factor * occluded
     }
 

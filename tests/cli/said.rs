@@ -109,7 +109,7 @@ fn json_is_all_that_standard_output_has() {
     }
     assert_eq!(json["choices"].as_array().map(Vec::len), Some(3));
     let rays = |kind: &str| json["rays"][kind].as_u64().expect("a count");
-    let sum: u64 = ["camera", "transparent", "shadow", "mirror"]
+    let sum: u64 = ["camera", "transparent", "shadow", "mirror", "refracted"]
         .map(rays)
         .iter()
         .sum();
