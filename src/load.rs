@@ -4,19 +4,22 @@ pub mod gltf;
 pub mod obj;
 pub mod scene_file;
 
+mod animated;
 mod asset;
 mod exposure;
 mod files;
 mod images;
 mod model;
 mod options;
+mod pose;
 mod tangents;
 mod viewpoint;
 mod warnings;
 
 pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
 pub use model::{
-    ExtensionFacts, Facts, Model, ModelCamera, ModelMesh, Node, Part, TextureFacts, Treatment,
+    AnimationFacts, ExtensionFacts, Facts, Model, ModelCamera, ModelMesh, Moved, Node, Part,
+    TextureFacts, Treatment,
 };
 pub use options::{AnimationChoice, Options};
 pub use viewpoint::{CameraChoice, Choices, Viewpoint};
@@ -34,8 +37,14 @@ pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("toml") => scene_file::open(path, options),
-        Some("gltf" | "glb") => gltf::open(path, options).map(Asset::of_model),
-        Some("obj") => obj::open(path, options).map(Asset::of_model),
+        Some("gltf" | "glb") => {
+            let model = gltf::open(path, options)?;
+            animated::check(Asset::of_model(model), options)
+        }
+        Some("obj") => {
+            let model = obj::open(path, options)?;
+            animated::check(Asset::of_model(model), options)
+        }
         _ => {
             files::check(path)?;
             Err(Error::Unsupported {

@@ -1,5 +1,6 @@
 //! `luch info`: what is in a file, and what luch makes of it.
 
+mod animation;
 mod model;
 mod scene_file;
 
@@ -42,8 +43,11 @@ type Line = (&'static str, String);
 
 /// Tells what is in a file.
 pub(super) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
-    let asset =
-        load::open(&arguments.input, &load::Options::default()).map_err(Failure::usage_or_scene)?;
+    let options = load::Options {
+        animation: arguments.animation.choice(),
+        ..load::Options::default()
+    };
+    let asset = load::open(&arguments.input, &options).map_err(Failure::usage_or_scene)?;
     let viewpoint = Viewpoint {
         aspect: 1.0,
         camera: CameraChoice::OfFile,
@@ -52,7 +56,7 @@ pub(super) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         exposure: None,
     };
     let (scene, _) = asset
-        .scene(0.0, &viewpoint)
+        .scene(arguments.animation.time(), &viewpoint)
         .map_err(Failure::usage_or_scene)?;
     let info = Info::of(&asset, &scene);
     if arguments.json {

@@ -39,16 +39,20 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let outputs = Outputs::claim(arguments, name, &Interrupt::watch())?;
 
     let start = Instant::now();
+    let options = load::Options {
+        animation: arguments.animation.choice(),
+        ..load::Options::default()
+    };
     let asset = match input {
-        Some(path) => load::open(path, &load::Options::default()),
-        None => load::scene_file::parse(FIGURE_4, name, &load::Options::default()),
+        Some(path) => load::open(path, &options),
+        None => load::scene_file::parse(FIGURE_4, name, &options),
     };
     let asset = asset.map_err(Failure::usage_or_scene)?;
     outputs.spare(&asset.files)?;
     let settings = settings(arguments, &asset)?;
     let viewpoint = viewpoint(arguments, &settings)?;
     let (scene, choices) = asset
-        .scene(0.0, &viewpoint)
+        .scene(arguments.animation.time(), &viewpoint)
         .map_err(Failure::usage_or_scene)?;
     let load = start.elapsed();
     summary::announce(arguments, &asset, &choices);

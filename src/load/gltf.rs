@@ -1,4 +1,4 @@
-//! glTF 2.0, static: `.gltf` with its buffers and images beside it or inside it, and `.glb`.
+//! glTF 2.0: `.gltf` with its buffers and images beside it or inside it, and `.glb`.
 //!
 //! Crate `gltf` gives the typed document; what the document points at is read here, with bounds of our own: the crate
 //! trusts files, and luch opens any. Each extension has a file of its own, which `extensions.rs` lists.
@@ -6,6 +6,8 @@
 //! Parts of a file without a name are called by their index in it, from 0, as the file itself does.
 
 mod accessors;
+mod animation_pointer;
+mod animations;
 mod base64;
 mod buffers;
 mod cameras;
@@ -18,9 +20,12 @@ mod lights_punctual;
 mod materials;
 mod materials_unlit;
 mod meshes;
+mod morph_targets;
+mod node_visibility;
 mod nodes;
 mod primitive_modes;
 mod primitives;
+mod skins;
 mod textures;
 mod uri;
 
@@ -29,6 +34,7 @@ use crate::Error;
 use buffers::Buffers;
 use document::{Document, one_line};
 use nodes::Contents;
+use std::collections::BTreeMap;
 use std::path::Path;
 use textures::Textures;
 
@@ -58,12 +64,20 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
     let geometry = meshes::all(&document, &buffers, &materials, &mut warnings)?;
     let (cameras, camera_indices) = compact(cameras::all(&document, &mut warnings));
     let (lights, light_indices) = compact(lights_punctual::all(&document, &mut warnings));
+    let (skins, skin_indices) = compact(skins::all(&document, &buffers, &mut warnings));
     let contents = Contents {
         meshes: geometry.shapes.len(),
         cameras: &camera_indices,
         lights: &light_indices,
+        skins: &skin_indices,
     };
     let tree = nodes::read(&document, &contents, &mut warnings)?;
+
+    let places = animations::Places {
+        cameras: &camera_indices,
+        lights: &light_indices,
+    };
+    let (animations, motion) = animations::read(&document, &buffers, &places, &mut warnings);
 
     let root = &document.root;
     let name = |name: &Option<String>| name.clone().unwrap_or_default();
@@ -74,7 +88,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
         points: geometry.points,
         lines: geometry.lines,
         textures: textures.facts,
-        animations: root.animations.iter().map(|a| name(&a.name)).collect(),
+        animations,
         extensions,
     };
     let own = [path.to_owned()];
@@ -88,6 +102,9 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
         roots: tree.roots,
         cameras,
         lights,
+        deformations: BTreeMap::new(),
+        skins,
+        motion,
         facts,
         warnings,
         files: own
@@ -110,6 +127,10 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
         return Err(meshes::nothing_to_draw(&document, &geometry));
     }
     (model.meshes, model.shapes) = (geometry.meshes, geometry.shapes);
+    model.deformations = geometry.deformations;
+    let mut warnings = std::mem::take(&mut model.warnings);
+    skins::fit(&mut model, meshes::budget(&buffers), &mut warnings);
+    model.warnings = warnings;
     Ok(model)
 }
 

@@ -14,7 +14,7 @@ mod shapes;
 mod source;
 mod table;
 
-use super::{Asset, CameraSource, Model, Options, files, gltf, obj};
+use super::{Asset, CameraSource, Model, Options, animated, files, gltf, obj};
 use crate::Error;
 use materials::Materials;
 use models::Models;
@@ -54,7 +54,8 @@ pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
 ///
 /// Those of [`open`], as far as they are not about the file itself.
 pub fn parse(text: &str, path: &Path, options: &Options) -> Result<Asset, Error> {
-    parse_with(text, path, |path| open_model(path, options))
+    let asset = parse_with(text, path, |path| open_model(path, options))?;
+    animated::check(asset, options)
 }
 
 /// [`parse`] with another way to open a model.

@@ -16,12 +16,13 @@ const MOST_AT_A_POINT: u32 = 2_000;
 #[derive(Debug, PartialEq)]
 pub(super) struct TooCrowded;
 
-/// Gives `mesh` tangents along +u of texture coordinates `uv_set`. Vertices whose corners differ in tangent are split.
+/// Gives `mesh` tangents along +u of texture coordinates `uv_set`. Vertices whose corners differ in tangent are split:
+/// which of the old ones each of the new ones was.
 ///
 /// # Errors
 ///
 /// Too many of its corners meet in one point; the mesh stays as it is.
-pub(super) fn add(mesh: &mut Mesh, uv_set: usize) -> Result<(), TooCrowded> {
+pub(super) fn add(mesh: &mut Mesh, uv_set: usize) -> Result<Vec<usize>, TooCrowded> {
     if most_at_a_point(mesh) > MOST_AT_A_POINT {
         return Err(TooCrowded);
     }
@@ -43,8 +44,9 @@ pub(super) fn add(mesh: &mut Mesh, uv_set: usize) -> Result<(), TooCrowded> {
     let done = generate_tangents(&mut corners);
     let tangents = corners.tangents;
     done.map_err(|_| TooCrowded)?;
-    *mesh = split(std::mem::take(mesh), &tangents);
-    Ok(())
+    let (split, old_vertices) = split(std::mem::take(mesh), &tangents);
+    *mesh = split;
+    Ok(old_vertices)
 }
 
 fn most_at_a_point(mesh: &Mesh) -> u32 {
@@ -155,8 +157,8 @@ fn position(mesh: &Mesh, triangle: usize, corner: usize) -> Vec3 {
     position.copied().unwrap_or_default() + Vec3::ZERO
 }
 
-/// `mesh` with one vertex for each pair of an old vertex and a tangent.
-fn split(mesh: Mesh, tangents: &[[Vec4; 3]]) -> Mesh {
+/// `mesh` with one vertex for each pair of an old vertex and a tangent, and which of the old ones each was.
+fn split(mesh: Mesh, tangents: &[[Vec4; 3]]) -> (Mesh, Vec<usize>) {
     let mut known: HashMap<(u32, [u32; 4]), u32> = HashMap::new();
     let mut old_vertices: Vec<usize> = Vec::with_capacity(mesh.positions.len());
     let mut new = Mesh {
@@ -180,7 +182,7 @@ fn split(mesh: Mesh, tangents: &[[Vec4; 3]]) -> Mesh {
     new.normals = picked(&mesh.normals, &old_vertices);
     new.colors = picked(&mesh.colors, &old_vertices);
     new.uvs = mesh.uvs.map(|set| picked(&set, &old_vertices));
-    new
+    (new, old_vertices)
 }
 
 /// What `which` says, where there is anything.
@@ -206,7 +208,7 @@ mod tests {
     }
 
     fn with_tangents(mut mesh: Mesh) -> Mesh {
-        assert_eq!(add(&mut mesh, 0), Ok(()));
+        assert!(add(&mut mesh, 0).is_ok());
         mesh
     }
 

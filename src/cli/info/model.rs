@@ -1,5 +1,6 @@
 //! What is in a model.
 
+use super::animation::{self, Animation};
 use super::{Line, listed};
 use crate::cli::print::{self, counted};
 use indicatif::HumanCount;
@@ -22,7 +23,7 @@ pub(super) struct ModelInfo {
     textures: Vec<Texture>,
     lights: Vec<String>,
     cameras: Vec<String>,
-    animations: Vec<String>,
+    animations: Vec<Animation>,
     extensions: Vec<Extension>,
 }
 
@@ -68,7 +69,7 @@ impl ModelInfo {
             textures: facts.textures.iter().map(texture).collect(),
             lights: model.lights.iter().map(|l| l.name.clone()).collect(),
             cameras: model.cameras.iter().map(|c| c.name.clone()).collect(),
-            animations: facts.animations.clone(),
+            animations: facts.animations.iter().map(Animation::of).collect(),
             extensions: facts.extensions.iter().map(extension).collect(),
         }
     }
@@ -92,8 +93,8 @@ impl ModelInfo {
             ("textures", listed(&textures)),
             ("lights", listed(&self.lights)),
             ("cameras", listed(&self.cameras)),
-            ("animations", listed(&self.animations)),
         ]);
+        lines.extend(animation::in_words(&self.animations));
         if self.extensions.is_empty() {
             lines.push(("extensions", "0".into()));
         }

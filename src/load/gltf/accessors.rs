@@ -223,6 +223,36 @@ impl Elements<'_> {
         })
     }
 
+    /// The elements that may be other than zero, in rising order.
+    pub(super) fn stored(&self) -> Vec<u32> {
+        match self.base {
+            Some(_) => (0..u32::try_from(self.count).unwrap_or(u32::MAX)).collect(),
+            None => self.changes.iter().map(|&(index, _)| index).collect(),
+        }
+    }
+
+    /// How many elements [`Elements::stored`] has.
+    pub(super) fn stored_count(&self) -> usize {
+        match self.base {
+            Some(_) => self.count,
+            None => self.changes.len(),
+        }
+    }
+
+    /// Every number of every element, in order.
+    pub(super) fn numbers(&self) -> Vec<f32> {
+        let size = self.component.size();
+        let mut numbers = Vec::with_capacity(self.count.saturating_mul(self.components));
+        for i in 0..self.count {
+            let element = self.element(i);
+            numbers.extend((0..self.components).map(|c| {
+                let number = element.get(c * size..).unwrap_or_default();
+                float(number, self.component, self.normalized)
+            }));
+        }
+        numbers
+    }
+
     /// The bytes of element `i`; empty where it is zero.
     fn element(&self, i: usize) -> &[u8] {
         let changed = self

@@ -1,7 +1,10 @@
 //! Which extensions luch honours, and what a file asks of them. One more is one more file and one more line here.
 
 use super::document::{Document, one_line};
-use super::{Warnings, emissive_strength, lights_punctual, materials_unlit};
+use super::{
+    Warnings, animation_pointer, emissive_strength, lights_punctual, materials_unlit,
+    node_visibility,
+};
 use crate::Error;
 use crate::load::{ExtensionFacts, Treatment};
 use serde::de::DeserializeOwned;
@@ -10,6 +13,8 @@ use std::collections::HashSet;
 
 /// The extensions that luch knows, and what it does with each.
 const KNOWN: &[(&str, Treatment)] = &[
+    (animation_pointer::NAME, Treatment::Honoured),
+    (node_visibility::NAME, Treatment::Honoured),
     (emissive_strength::NAME, Treatment::Honoured),
     (lights_punctual::NAME, Treatment::Honoured),
     (materials_unlit::NAME, Treatment::Honoured),

@@ -2,15 +2,18 @@
 
 use super::buffers::Buffers;
 use super::document::{Document, named};
-use super::primitives::{Drawn, Reader};
+use super::primitives::{Changing, Drawn, Reader};
 use super::{Warnings, extensions};
 use crate::Error;
-use crate::load::{ModelMesh, Part};
+use crate::load::pose::Deformation;
+use crate::load::{AnimationChoice, ModelMesh, Part};
 use crate::material::Material;
 use crate::mesh::Mesh;
+use gltf::json::Index;
+use gltf::json::accessor::Accessor;
 use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// How many corners and vertices a file may come to for each byte of its buffers: one byte can be the index of three
 /// corners in a strip. Files that come to more read the same bytes again and again.
@@ -23,6 +26,8 @@ const FREE_ELEMENTS: u64 = 1 << 20;
 pub(super) struct Geometry {
     /// One for each primitive that draws triangles.
     pub(super) meshes: Vec<Mesh>,
+    /// Of those whose shape something may change, what does.
+    pub(super) deformations: BTreeMap<u32, Deformation>,
     /// One for each mesh of the file, by its index in it.
     pub(super) shapes: Vec<ModelMesh>,
     /// How many triangles.
@@ -38,10 +43,27 @@ pub(super) struct Geometry {
 }
 
 /// What tells primitives apart, but for their material.
-type Key = (Vec<(String, usize)>, Option<usize>, u32, Option<u8>);
+#[derive(PartialEq, Eq, Hash)]
+struct Key {
+    attributes: Vec<(String, usize)>,
+    indices: Option<usize>,
+    mode: u32,
+    tangent_set: Option<u8>,
+    changing: Changing,
+    /// Positions, normals, tangents.
+    targets: Vec<[Option<usize>; 3]>,
+}
 
 /// Extensions that hold geometry outside accessors.
 const COMPRESSIONS: [&str; 1] = ["KHR_draco_mesh_compression"];
+
+/// How many corners and vertices a file may come to.
+pub(super) fn budget(buffers: &Buffers) -> u64 {
+    buffers
+        .total_bytes
+        .saturating_mul(ELEMENTS_A_BYTE)
+        .saturating_add(FREE_ELEMENTS)
+}
 
 /// Reads every mesh of the file. The last of `materials` is the default.
 ///
@@ -56,15 +78,15 @@ pub(super) fn all(
 ) -> Result<Geometry, Error> {
     let mut geometry = Geometry::default();
     let mut known: HashMap<Key, Option<u32>> = HashMap::new();
-    let mut budget = buffers
-        .total_bytes
-        .saturating_mul(ELEMENTS_A_BYTE)
-        .saturating_add(FREE_ELEMENTS);
+    let mut budget = budget(buffers);
+    let changes = changes(document);
     for (index, mesh) in document.root.meshes.iter().enumerate() {
         let mut shape = ModelMesh {
             name: mesh.name.clone().unwrap_or_default(),
             parts: Vec::new(),
+            weights: weights(document, index).to_vec(),
         };
+        let changing = changes.get(index).copied().unwrap_or_default();
         let name = named("mesh", index, mesh.name.as_ref());
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let reader = Reader {
@@ -86,23 +108,16 @@ pub(super) fn all(
                 geometry.compressed_by.get_or_insert(extension);
                 continue;
             }
-            if primitive
-                .targets
-                .as_ref()
-                .is_some_and(|targets| !targets.is_empty())
-            {
-                warnings.add("morph targets are ignored: meshes have their own shape");
-            }
             let Checked::Valid(mode) = primitive.mode else {
                 return Err(document.malformed(place, "its mode is unknown, expected 0 to 6"));
             };
             let normal_map = materials.get(material).and_then(|m| m.normal_map.as_ref());
             let tangent_set = normal_map.map(|map| map.texture.uv_set);
-            let key = key(primitive, mode, tangent_set);
+            let key = key(primitive, mode, tangent_set, changing);
             let drawn = match known.get(&key) {
                 Some(&drawn) => drawn,
                 None => {
-                    let drawn = reader.read(mode, tangent_set, &mut budget, warnings)?;
+                    let drawn = reader.read(mode, tangent_set, changing, &mut budget, warnings)?;
                     let drawn = geometry.take(drawn, &mesh.name);
                     known.insert(key, drawn);
                     drawn
@@ -132,7 +147,7 @@ impl Geometry {
         match drawn {
             Drawn::Points(count) => self.points += count,
             Drawn::Lines(count) => self.lines += count,
-            Drawn::Triangles(mut mesh, left_out) => {
+            Drawn::Triangles(mut mesh, deformation, left_out) => {
                 self.not_finite += left_out;
                 if mesh.triangles.is_empty() {
                     return None;
@@ -140,7 +155,11 @@ impl Geometry {
                 self.triangles += mesh.triangles.len();
                 mesh.name = name.clone().unwrap_or_default();
                 self.meshes.push(mesh);
-                return Some(self.meshes.len() as u32 - 1);
+                let index = self.meshes.len() as u32 - 1;
+                if !deformation.is_empty() {
+                    self.deformations.insert(index, deformation);
+                }
+                return Some(index);
             }
         }
         None
@@ -163,7 +182,36 @@ fn compression(document: &Document, primitive: &Primitive) -> Option<&'static st
     (!whole).then_some(name)
 }
 
-fn key(primitive: &Primitive, mode: Mode, tangent_set: Option<u8>) -> Key {
+/// How much each morph target of a mesh counts, where a node does not say it.
+fn weights(document: &Document, mesh: usize) -> &[f32] {
+    let mesh = document.root.meshes.get(mesh);
+    mesh.and_then(|mesh| mesh.weights.as_deref())
+        .unwrap_or_default()
+}
+
+/// What may change the shape of each mesh: joints where a node gives it a skin; morph targets where they count, or an
+/// animation may make them count.
+fn changes(document: &Document) -> Vec<Changing> {
+    let count = |weights: &[f32]| weights.iter().any(|&weight| weight != 0.0);
+    let moves =
+        document.options.animation != AnimationChoice::None && !document.root.animations.is_empty();
+    let mut changes: Vec<Changing> = (0..document.root.meshes.len())
+        .map(|mesh| Changing {
+            morphs: moves || count(weights(document, mesh)),
+            bends: false,
+        })
+        .collect();
+    for node in &document.root.nodes {
+        let mesh = node.mesh.and_then(|mesh| changes.get_mut(mesh.value()));
+        if let Some(changing) = mesh {
+            changing.bends |= node.skin.is_some();
+            changing.morphs |= node.weights.as_deref().is_some_and(count);
+        }
+    }
+    changes
+}
+
+fn key(primitive: &Primitive, mode: Mode, tangent_set: Option<u8>, changing: Changing) -> Key {
     let attributes = primitive.attributes.iter();
     let attributes = attributes
         .filter_map(|(semantic, accessor)| match semantic {
@@ -172,7 +220,20 @@ fn key(primitive: &Primitive, mode: Mode, tangent_set: Option<u8>) -> Key {
         })
         .collect();
     let indices = primitive.indices.map(|index| index.value());
-    (attributes, indices, mode.as_gl_enum(), tangent_set)
+    let index = |accessor: Option<Index<Accessor>>| accessor.map(|index| index.value());
+    let targets = primitive.targets.iter().flatten();
+    let targets = targets
+        .map(|target| [target.positions, target.normals, target.tangents].map(index))
+        .filter(|_| changing.morphs)
+        .collect();
+    Key {
+        attributes,
+        indices,
+        mode: mode.as_gl_enum(),
+        tangent_set,
+        changing,
+        targets,
+    }
 }
 
 fn warn_of_missing_coordinates(

@@ -5,9 +5,11 @@
 
 use super::Warnings;
 use super::document::{Document, named};
+use super::node_visibility::{self, Visibility};
 use super::{extensions, lights_punctual};
 use crate::Error;
 use crate::load::Node;
+use crate::load::pose::{Factors, is_somewhere};
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use gltf::json::Node as NodeJson;
 
@@ -20,11 +22,12 @@ pub(super) struct Tree {
     pub(super) roots: Vec<usize>,
 }
 
-/// What nodes may hold: how many meshes there are, and where in the model each camera and light of the file went.
+/// What nodes may hold: how many meshes there are, and where in the model each camera, light and skin of the file went.
 pub(super) struct Contents<'a> {
     pub(super) meshes: usize,
     pub(super) cameras: &'a [Option<usize>],
     pub(super) lights: &'a [Option<usize>],
+    pub(super) skins: &'a [Option<usize>],
 }
 
 /// Reads the nodes of a file and its scene: the one that it names, else its first, else every node without a parent.
@@ -202,9 +205,30 @@ fn one(
             None
         }
     };
-    if json.skin.is_some() && shape.is_some() {
-        warnings.add("skins are ignored: a mesh with one stands as its node does");
-    }
+    let skin = match json.skin {
+        Some(_) if shape.is_none() => None,
+        Some(skin) => {
+            let count = contents.skins.len();
+            let known = contents.skins.get(skin.value());
+            if known.is_none() {
+                let skin = skin.value();
+                warnings.add(format!(
+                    "{}: skin {skin} does not exist, there are {count}: it is ignored",
+                    place()
+                ));
+            }
+            known.copied().flatten()
+        }
+        None => None,
+    };
+    let visibility = extensions::read::<Visibility>(others, node_visibility::NAME);
+    let is_hidden = match visibility {
+        Ok(visibility) => visibility.is_some_and(|visibility| !visibility.visible),
+        Err(problem) => {
+            warnings.add(format!("{}: {problem}: it is seen", place()));
+            false
+        }
+    };
     Ok(Node {
         name: json.name.clone().unwrap_or_default(),
         children,
@@ -212,6 +236,9 @@ fn one(
         shape,
         camera,
         light,
+        skin,
+        weights: json.weights.clone(),
+        is_hidden,
     })
 }
 
@@ -227,21 +254,36 @@ fn to_parent(json: &NodeJson, warnings: &mut Warnings) -> DAffine3 {
         }
         return DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z), w);
     }
+    if json.rotation.is_some_and(|rotation| rotation.0 == [0.0; 4]) {
+        warnings.add("a node's rotation without length is ignored");
+    }
+    factors(json).matrix()
+}
+
+/// A node's transform in the factors that animations change; a matrix has them only as far as it does not shear.
+pub(super) fn factors_of(json: &NodeJson) -> Factors {
+    if json.matrix.is_some() {
+        Factors::of(&to_parent(json, &mut Warnings::default()))
+    } else {
+        factors(json)
+    }
+}
+
+fn factors(json: &NodeJson) -> Factors {
     let vector = |v: Option<[f32; 3]>| v.map(|v| DVec3::from(v.map(f64::from)));
     let rotation = json.rotation.map_or(DQuat::IDENTITY, |rotation| {
         let rotation = DQuat::from_array(rotation.0.map(f64::from));
         if rotation.length_squared() > 0.0 {
             rotation.normalize()
         } else {
-            warnings.add("a node's rotation without length is ignored");
             DQuat::IDENTITY
         }
     });
-    DAffine3::from_scale_rotation_translation(
-        vector(json.scale).unwrap_or(DVec3::ONE),
+    Factors {
+        translation: vector(json.translation).unwrap_or_default(),
         rotation,
-        vector(json.translation).unwrap_or_default(),
-    )
+        scale: vector(json.scale).unwrap_or(DVec3::ONE),
+    }
 }
 
 impl Tree {
@@ -256,11 +298,7 @@ impl Tree {
         while let Some((index, above)) = open.pop() {
             let node = &mut self.nodes[index];
             let to_model = above * node.to_parent;
-            let is_somewhere = to_model
-                .to_cols_array()
-                .iter()
-                .all(|x| x.abs() <= f64::from(f32::MAX));
-            if is_somewhere {
+            if is_somewhere(&to_model) {
                 if node.to_parent.matrix3.determinant() == 0.0 {
                     let place = named("node", index, Some(&node.name));
                     warnings.add(format!(

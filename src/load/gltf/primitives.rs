@@ -4,8 +4,9 @@ use super::Warnings;
 use super::accessors::{self, Elements};
 use super::buffers::Buffers;
 use super::document::Document;
-use super::primitive_modes;
+use super::{morph_targets, primitive_modes, skins};
 use crate::Error;
+use crate::load::pose::Deformation;
 use crate::load::tangents::{self, TooCrowded};
 use crate::mesh::Mesh;
 use glam::{Vec2, Vec3, Vec4};
@@ -24,12 +25,22 @@ pub(super) struct Reader<'a> {
 
 /// What a primitive draws.
 pub(super) enum Drawn {
-    /// Triangles, perhaps none, and how many were left out since a position of theirs is no number.
-    Triangles(Mesh, usize),
+    /// Triangles, perhaps none, what may change their shape, and how many were left out since a position of theirs is
+    /// no number.
+    Triangles(Mesh, Deformation, usize),
     /// So many points, which luch does not draw.
     Points(usize),
     /// So many line segments, which luch does not draw.
     Lines(usize),
+}
+
+/// What may change the shape of a primitive, and need not be read where nothing does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(super) struct Changing {
+    /// Morph targets.
+    pub(super) morphs: bool,
+    /// Joints.
+    pub(super) bends: bool,
 }
 
 impl Reader<'_> {
@@ -43,13 +54,14 @@ impl Reader<'_> {
         &self,
         mode: Mode,
         tangent_set: Option<u8>,
+        changing: Changing,
         budget: &mut u64,
         warnings: &mut Warnings,
     ) -> Result<Drawn, Error> {
         let Some(positions) = self.attribute(&Semantic::Positions, "POSITION", &[Type::Vec3], 0)?
         else {
             warnings.add(format!("{}: has no POSITION and is not drawn", self.place));
-            return Ok(Drawn::Triangles(Mesh::default(), 0));
+            return Ok(Drawn::Triangles(Mesh::default(), Deformation::default(), 0));
         };
         let corners = self.corners(&positions, budget)?;
         let left_over = primitive_modes::left_over(mode, corners.len());
@@ -83,10 +95,24 @@ impl Reader<'_> {
             ..Mesh::default()
         };
         self.attributes(&mut mesh, &kept, positions.count, warnings)?;
+        let mut old_vertices = None;
         if let Some(set) = tangent_set {
-            mesh = self.tangents(mesh, &kept, positions.count, usize::from(set), warnings)?;
+            (mesh, old_vertices) =
+                self.tangents(mesh, &kept, positions.count, usize::from(set), warnings)?;
         }
-        Ok(Drawn::Triangles(mesh, left_out))
+        let mut deformation = Deformation::default();
+        if changing.morphs {
+            let count = positions.count;
+            deformation.targets = self.morph_targets(&mesh, &kept, count, budget, warnings)?;
+        }
+        if changing.bends {
+            self.influences(&mut deformation, &kept, positions.count, budget, warnings)?;
+        }
+        if let Some(old_vertices) = old_vertices {
+            morph_targets::split(&mut deformation.targets, &old_vertices);
+            skins::split(&mut deformation, &old_vertices);
+        }
+        Ok(Drawn::Triangles(mesh, deformation, left_out))
     }
 
     /// Normals, texture coordinates and colours.
@@ -127,7 +153,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's.
+    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's and
+    /// which of the old vertices each was.
     fn tangents(
         &self,
         mut mesh: Mesh,
@@ -135,7 +162,7 @@ impl Reader<'_> {
         count: usize,
         set: usize,
         warnings: &mut Warnings,
-    ) -> Result<Mesh, Error> {
+    ) -> Result<(Mesh, Option<Vec<usize>>), Error> {
         let given = self.attribute(&Semantic::Tangents, "TANGENT", &[Type::Vec4], count)?;
         if let Some(tangents) = given.filter(|_| !mesh.normals.is_empty()) {
             mesh.tangents = kept.gather(|i| {
@@ -143,26 +170,27 @@ impl Reader<'_> {
                 let along = tangent.truncate().normalize_or_zero();
                 along.extend(if tangent.w < 0.0 { -1.0 } else { 1.0 })
             });
-            return Ok(mesh);
+            return Ok((mesh, None));
         }
         if mesh.uvs.get(set).is_none_or(Vec::is_empty) {
             warnings.add(format!(
                 "{}: has no TEXCOORD_{set}, so that its normal map is ignored",
                 self.place
             ));
-            return Ok(mesh);
+            return Ok((mesh, None));
         }
-        if let Err(TooCrowded) = tangents::add(&mut mesh, set) {
+        let split = tangents::add(&mut mesh, set);
+        if let Err(TooCrowded) = split {
             warnings.add(format!(
                 "{}: too many corners meet in one point for tangents, so that its normal map is ignored",
                 self.place
             ));
         }
-        Ok(mesh)
+        Ok((mesh, split.ok()))
     }
 
     /// An attribute with at least `count` elements, if the primitive has it.
-    fn attribute(
+    pub(super) fn attribute(
         &self,
         semantic: &Semantic,
         name: &str,
@@ -221,7 +249,7 @@ impl Reader<'_> {
         }
     }
 
-    fn spend(&self, budget: &mut u64, elements: usize) -> Result<(), Error> {
+    pub(super) fn spend(&self, budget: &mut u64, elements: usize) -> Result<(), Error> {
         match budget.checked_sub(elements as u64) {
             Some(rest) => {
                 *budget = rest;
@@ -237,7 +265,7 @@ impl Reader<'_> {
 
 /// Which of an accessor's vertices a mesh keeps. Files share one long accessor between many primitives; each keeps
 /// only what it draws.
-enum Kept {
+pub(super) enum Kept {
     All(usize),
     /// In rising order.
     Some(Vec<u32>),
@@ -259,14 +287,22 @@ impl Kept {
         Kept::Some(used)
     }
 
-    fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         match self {
             Kept::All(count) => *count,
             Kept::Some(used) => used.len(),
         }
     }
 
-    fn gather<T>(&self, at: impl Fn(usize) -> T) -> Vec<T> {
+    /// Where vertex `old` of the accessor went, if it is kept.
+    pub(super) fn place_of(&self, old: u32) -> Option<u32> {
+        match self {
+            Kept::All(_) => Some(old),
+            Kept::Some(used) => used.binary_search(&old).ok().map(|place| place as u32),
+        }
+    }
+
+    pub(super) fn gather<T>(&self, at: impl Fn(usize) -> T) -> Vec<T> {
         match self {
             Kept::All(count) => (0..*count).map(at).collect(),
             Kept::Some(used) => used.iter().map(|&i| at(i as usize)).collect(),

@@ -5,18 +5,20 @@ use super::{CameraChoice, Choices, Viewpoint};
 use crate::Error;
 use crate::camera::{Camera, Clip, Fov, Projection};
 use crate::framing;
-use crate::load::{Asset, CameraSource};
+use crate::load::pose::Pose;
+use crate::load::{Asset, CameraSource, PlacedModel};
 use crate::scene::SceneDescription;
 use glam::DVec3;
 
 /// The camera that the user, the file or the framing gives, with the field of view that the user asks for.
 pub(in crate::load) fn camera(
     asset: &Asset,
+    poses: &[(&PlacedModel, Pose)],
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
-    let camera = chosen_camera(asset, viewpoint, scene, choices)?;
+    let camera = chosen_camera(asset, poses, viewpoint, scene, choices)?;
     let asked = viewpoint
         .fov_y
         .map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
@@ -28,13 +30,14 @@ pub(in crate::load) fn camera(
 
 fn chosen_camera(
     asset: &Asset,
+    poses: &[(&PlacedModel, Pose)],
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
     let of_file = |name: &str| {
-        camera_of_model(asset, name)
-            .ok_or_else(|| Error::malformed(&asset.file, "", no_such_camera(asset, name)))
+        camera_of_model(poses, name)
+            .ok_or_else(|| Error::malformed(&asset.file, "", no_such_camera(poses, name)))
     };
     match (&viewpoint.camera, &asset.camera) {
         (CameraChoice::Given(camera), _) => Ok(*camera),
@@ -42,7 +45,7 @@ fn chosen_camera(
         (CameraChoice::OfFile, Some(CameraSource::Given(camera))) => Ok(*camera),
         (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => of_file(name),
         (CameraChoice::OfFile, None) => {
-            let first = cameras(asset).next();
+            let first = cameras(poses).next();
             Ok(first.map(|placed| placed.camera).unwrap_or_else(|| {
                 choices.lines.push(
                     "camera: none in the file; a three-quarter view, fitted to the model".into(),
@@ -65,12 +68,12 @@ struct PlacedCamera {
 }
 
 /// Every camera that a node of a model places.
-fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
-    asset.models.iter().flat_map(|placed| {
-        let nodes = placed.model.placed_nodes();
-        nodes.into_iter().filter_map(move |(node, to_model)| {
-            let camera = placed.model.cameras.get(node.camera?)?;
-            let to_world = placed.to_world * to_model;
+fn cameras(poses: &[(&PlacedModel, Pose)]) -> impl Iterator<Item = PlacedCamera> {
+    poses.iter().flat_map(|(placed, pose)| {
+        pose.nodes.iter().filter_map(|posed| {
+            let node = posed.node;
+            let camera = pose.cameras.get(node.camera?)?;
+            let to_world = placed.to_world * posed.to_model;
             let position = to_world.translation;
             // Directions only: a camera does not grow with its node (glTF 2.0, section 3.10).
             let forward = to_world
@@ -101,19 +104,19 @@ fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
     })
 }
 
-fn camera_of_model(asset: &Asset, wanted: &str) -> Option<Camera> {
-    let by_name = cameras(asset).find(|placed| placed.name == wanted || placed.node == wanted);
-    let by_index = || cameras(asset).nth(wanted.parse().ok()?);
+fn camera_of_model(poses: &[(&PlacedModel, Pose)], wanted: &str) -> Option<Camera> {
+    let by_name = cameras(poses).find(|placed| placed.name == wanted || placed.node == wanted);
+    let by_index = || cameras(poses).nth(wanted.parse().ok()?);
     by_name.or_else(by_index).map(|placed| placed.camera)
 }
 
-fn no_such_camera(asset: &Asset, wanted: &str) -> String {
+fn no_such_camera(poses: &[(&PlacedModel, Pose)], wanted: &str) -> String {
     const SHOWN: usize = 8;
     let called = |(index, PlacedCamera { name, .. }): (usize, PlacedCamera)| match name.as_str() {
         "" => index.to_string(),
         name => format!("{index} \"{name}\""),
     };
-    let known: Vec<String> = (0..).zip(cameras(asset)).map(called).collect();
+    let known: Vec<String> = (0..).zip(cameras(poses)).map(called).collect();
     let there = match known.as_slice() {
         [] => "the file has none".into(),
         [only] => format!("there is {only}"),
