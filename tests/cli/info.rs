@@ -54,7 +54,7 @@ a.gltf
   textures    1: grain (1 x 1)
   lights      1: sun
   cameras     1: door
-  animations  1: run
+  animation   0 \"run\": 0 s
   extension   KHR_lights_punctual (required, honoured)
   extension   ACME_x (used, ignored)
   instances   2
@@ -93,7 +93,7 @@ fn everything_in_a_model_is_told_as_json() {
             "textures": [{"name": "grain", "size": [1, 1]}],
             "lights": ["sun"],
             "cameras": ["door"],
-            "animations": ["run"],
+            "animations": [{"name": "run", "seconds": 0.0, "moves": []}],
             "extensions": [
                 {"name": "KHR_lights_punctual", "required": true, "treatment": "honoured"},
                 {"name": "ACME_x", "required": false, "treatment": "ignored"},
