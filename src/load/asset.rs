@@ -199,7 +199,7 @@ impl PlacedModel {
         for (count, what) in [(pose.nowhere, "node"), (meshes.left_out, "triangle")] {
             if count > 0 {
                 choices.lines.push(format!(
-                    "animation: {count} {what}{} whose place is not of finite numbers then",
+                    "pose: {count} {what}{} whose place is not of finite numbers then",
                     if count == 1 {
                         " is left out,"
                     } else {

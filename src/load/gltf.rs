@@ -23,6 +23,7 @@ mod meshes;
 mod morph_targets;
 mod node_visibility;
 mod nodes;
+mod poses;
 mod primitive_modes;
 mod primitives;
 mod skins;
@@ -129,7 +130,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
     (model.meshes, model.shapes) = (geometry.meshes, geometry.shapes);
     model.deformations = geometry.deformations;
     let mut warnings = std::mem::take(&mut model.warnings);
-    skins::fit(&mut model, meshes::budget(&buffers), &mut warnings);
+    poses::fit(&mut model, meshes::budget(&buffers), &mut warnings);
     model.warnings = warnings;
     Ok(model)
 }

@@ -221,13 +221,17 @@ impl<'a> Pose<'a> {
             .collect();
     }
 
-    /// How much each morph target counts in what a node shows.
-    fn weights(&self, posed: &PosedNode<'a>) -> &[f32] {
-        let of_shape = || self.moved.shape_weights.get(&posed.node.shape?);
-        match (self.moved.node_weights.get(&posed.index), of_shape()) {
-            (Some(of_node), _) => of_node,
-            (None, Some(of_shape)) if posed.node.weights.is_none() => of_shape,
-            _ => self.model.weights(posed.node),
+    /// How much each morph target counts in what a node shows, and the node's index where that is its own.
+    fn weights(&self, posed: &PosedNode<'a>) -> (&[f32], Option<usize>) {
+        let PosedNode { index, node, .. } = *posed;
+        let of_shape = || self.moved.shape_weights.get(&node.shape?);
+        match (self.moved.node_weights.get(&index), of_shape()) {
+            (Some(of_node), _) => (of_node, Some(index)),
+            (None, Some(of_shape)) if node.weights.is_none() => (of_shape, None),
+            _ => (
+                self.model.weights(node),
+                node.weights.is_some().then_some(index),
+            ),
         }
     }
 }

@@ -613,10 +613,10 @@ fn what_goes_to_no_place_is_left_out_with_a_line() {
     let said = |time: f64| {
         let (scene, choices) = scene_at(&asset, time);
         let lines = choices.lines.into_iter();
-        let lines: Vec<String> = lines.filter(|line| line.starts_with("animation")).collect();
+        let lines: Vec<String> = lines.filter(|line| line.starts_with("pose")).collect();
         (scene.instances().len(), lines)
     };
     assert_eq!(said(0.0), (2, vec![]));
-    let line = "animation: 1 node is left out, whose place is not of finite numbers then";
+    let line = "pose: 1 node is left out, whose place is not of finite numbers then";
     assert_eq!(said(1.0), (1, vec![line.to_owned()]));
 }

@@ -2,9 +2,10 @@
 //!
 //! Honoured for what luch shows: nodes' factors, weights and visibility, materials, texture transforms, lights, cameras.
 
-use super::animations::{Change, Places, targets_of_mesh, targets_of_node};
+use super::animations::{Change, Places};
 use super::document::{Document, one_line};
 use super::emissive_strength::{self, EmissiveStrength};
+use super::morph_targets::{targets_of_mesh, targets_of_node};
 use super::{BRIGHTEST, extensions, lights_punctual, node_visibility};
 use crate::color::Rgb;
 use crate::load::pose::{
@@ -119,8 +120,9 @@ fn of_node(document: &Document, node: usize, rest: &[&str]) -> Result<Option<Cha
             Change::of_weights(Target::NodeWeights(node), targets)
         }
         ["weights", one] => {
-            let one = index(one, targets_of_node(document, node)?)?;
-            Change::of(Target::NodeWeight(node, one), 1)
+            let targets = targets_of_node(document, node)?;
+            let one = index(one, targets)?;
+            Change::of_weight(Target::NodeWeight(node, one), targets)
         }
         ["extensions", node_visibility::NAME, "visible"] => Change::of(Target::Visibility(node), 1),
         _ => return Ok(None),
@@ -134,8 +136,9 @@ fn of_mesh(document: &Document, mesh: usize, rest: &[&str]) -> Result<Option<Cha
             Change::of_weights(Target::ShapeWeights(mesh), targets)
         }
         ["weights", one] => {
-            let one = index(one, targets_of_mesh(document, mesh)?)?;
-            Change::of(Target::ShapeWeight(mesh, one), 1)
+            let targets = targets_of_mesh(document, mesh)?;
+            let one = index(one, targets)?;
+            Change::of_weight(Target::ShapeWeight(mesh, one), targets)
         }
         _ => return Ok(None),
     }))

@@ -6,6 +6,7 @@ use super::accessors;
 use super::animation_pointer;
 use super::buffers::Buffers;
 use super::document::{Document, named, one_line};
+use super::morph_targets::targets_of_node;
 use super::{Warnings, meshes, nodes};
 use crate::load::pose::{Curve, Interpolation, Motion, Target, Track};
 use crate::load::{AnimationFacts, Moved};
@@ -25,9 +26,11 @@ pub(super) struct Places<'a> {
 pub(super) struct Change {
     pub(super) target: Target,
     /// How many numbers a value has.
-    pub(super) width: usize,
+    width: usize,
     /// How many of them an element of the accessor has.
-    pub(super) components: usize,
+    components: usize,
+    /// How many numbers it comes to at every moment.
+    cost: usize,
 }
 
 impl Change {
@@ -37,6 +40,7 @@ impl Change {
             target,
             width,
             components: width,
+            cost: width,
         }
     }
 
@@ -46,6 +50,17 @@ impl Change {
             target,
             width,
             components: 1,
+            cost: width,
+        }
+    }
+
+    /// One of so many weights.
+    pub(super) fn of_weight(target: Target, among: usize) -> Change {
+        Change {
+            target,
+            width: 1,
+            components: 1,
+            cost: among,
         }
     }
 }
@@ -167,28 +182,6 @@ impl Channel<'_> {
     }
 }
 
-/// How many morph targets the mesh of a node has.
-pub(super) fn targets_of_node(document: &Document, node: usize) -> Result<usize, String> {
-    let node = document.root.nodes.get(node);
-    let mesh = node.and_then(|node| node.mesh);
-    let mesh = mesh.ok_or("weights a node that has no mesh")?;
-    targets_of_mesh(document, mesh.value())
-}
-
-/// How many morph targets a mesh has.
-pub(super) fn targets_of_mesh(document: &Document, mesh: usize) -> Result<usize, String> {
-    let meshes = &document.root.meshes;
-    let mesh = meshes
-        .get(mesh)
-        .ok_or_else(|| format!("mesh {mesh} does not exist, there are {}", meshes.len()))?;
-    let targets = mesh.primitives.iter();
-    let targets = targets.filter_map(|primitive| primitive.targets.as_ref().map(Vec::len));
-    match targets.max() {
-        Some(count) if count > 0 => Ok(count),
-        _ => Err("weights a mesh that has no morph targets".into()),
-    }
-}
-
 fn facts(animation: &Animation, numbers: &mut Numbers) -> AnimationFacts {
     let mut seconds = 0.0;
     let mut moves: Vec<Moved> = Vec::new();
@@ -250,15 +243,18 @@ impl Numbers<'_> {
     fn read(&mut self, accessor: usize) -> Result<(Arc<[f32]>, usize), String> {
         let kinds = [Type::Scalar, Type::Vec2, Type::Vec3, Type::Vec4];
         let elements = accessors::read(self.document, self.buffers, accessor, &kinds)?;
-        let count = (elements.count as u64).saturating_mul(elements.components as u64);
-        self.budget = self.budget.checked_sub(count).ok_or_else(|| {
-            format!("accessor {accessor}: the keys up to here are many times what the buffers hold")
-        })?;
+        self.spend(elements.count.saturating_mul(elements.components))?;
         let numbers = elements.numbers();
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(format!("accessor {accessor}: is not of finite numbers"));
         }
         Ok((numbers.into(), elements.components))
+    }
+
+    fn spend(&mut self, numbers: usize) -> Result<(), String> {
+        let rest = self.budget.checked_sub(numbers as u64);
+        self.budget = rest.ok_or("the keys up to here are many times what the buffers hold")?;
+        Ok(())
     }
 
     /// What a sampler makes of a change.
@@ -272,7 +268,9 @@ impl Numbers<'_> {
             target,
             width,
             components,
+            cost,
         } = change;
+        self.spend(cost)?;
         let count = animation.samplers.len();
         let sampler = animation
             .samplers

@@ -98,7 +98,7 @@ fn too_great<'a>(value: &'a Value, key: &'a str) -> Option<(&'a str, u64)> {
     }
 }
 
-/// A second attempt at a document, for what glTF allows and crate `gltf` does not: scenes without nodes, channels
+/// A second attempt at a document, for what glTF allows and crate `gltf` does not: scenes without nodes, animations without channels, channels
 /// without a node, whole numbers that end in `.0`.
 fn parse_mended(file: &Path, text: &str, first: &serde_json::Error) -> Result<Root, Error> {
     let mut value: Value = serde_json::from_str(text).map_err(|e| not_read(file, &e))?;
@@ -112,6 +112,12 @@ fn parse_mended(file: &Path, text: &str, first: &serde_json::Error) -> Result<Ro
     }
     if let Some(animations) = value.get_mut("animations").and_then(Value::as_array_mut) {
         for animation in animations {
+            if let Some(animation) = animation.as_object_mut() {
+                for name in ["channels", "samplers"] {
+                    let nothing = || Value::Array(Vec::new());
+                    animation.entry(name).or_insert_with(nothing);
+                }
+            }
             if let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) {
                 let (of_nodes, others): (Vec<Value>, Vec<Value>) = std::mem::take(channels)
                     .into_iter()

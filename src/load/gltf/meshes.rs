@@ -3,7 +3,7 @@
 use super::buffers::Buffers;
 use super::document::{Document, named};
 use super::primitives::{Changing, Drawn, Reader};
-use super::{Warnings, extensions};
+use super::{Warnings, extensions, morph_targets};
 use crate::Error;
 use crate::load::pose::Deformation;
 use crate::load::{AnimationChoice, ModelMesh, Part};
@@ -84,7 +84,10 @@ pub(super) fn all(
         let mut shape = ModelMesh {
             name: mesh.name.clone().unwrap_or_default(),
             parts: Vec::new(),
-            weights: weights(document, index).to_vec(),
+            weights: match &mesh.weights {
+                Some(weights) => morph_targets::fitting(document, weights, index, warnings),
+                None => Vec::new(),
+            },
         };
         let changing = changes.get(index).copied().unwrap_or_default();
         let name = named("mesh", index, mesh.name.as_ref());

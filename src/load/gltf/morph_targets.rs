@@ -4,6 +4,7 @@
 
 use super::Warnings;
 use super::accessors;
+use super::document::Document;
 use super::primitives::{Kept, Reader};
 use crate::Error;
 use crate::load::pose::{MorphTarget, Offset};
@@ -11,6 +12,55 @@ use crate::mesh::Mesh;
 use glam::Vec3;
 use gltf::json::Index;
 use gltf::json::accessor::{Accessor, Type};
+
+/// How many primitives of a mesh are asked for their number of targets, which is the same in all of them (glTF 2.0,
+/// section 3.7.2.2): every node and channel asks anew.
+const PRIMITIVES_ASKED: usize = 16;
+
+/// How many morph targets the mesh of a node has.
+///
+/// # Errors
+///
+/// One line: it has none, or there is no mesh.
+pub(super) fn targets_of_node(document: &Document, node: usize) -> Result<usize, String> {
+    let node = document.root.nodes.get(node);
+    let mesh = node.and_then(|node| node.mesh);
+    let mesh = mesh.ok_or("weights a node that has no mesh")?;
+    targets_of_mesh(document, mesh.value())
+}
+
+/// How many morph targets a mesh has.
+///
+/// # Errors
+///
+/// One line: it has none, or there is no such mesh.
+pub(super) fn targets_of_mesh(document: &Document, mesh: usize) -> Result<usize, String> {
+    let meshes = &document.root.meshes;
+    let mesh = meshes
+        .get(mesh)
+        .ok_or_else(|| format!("mesh {mesh} does not exist, there are {}", meshes.len()))?;
+    let targets = mesh.primitives.iter().take(PRIMITIVES_ASKED);
+    let targets = targets.filter_map(|primitive| primitive.targets.as_ref().map(Vec::len));
+    match targets.max() {
+        Some(count) if count > 0 => Ok(count),
+        _ => Err("weights a mesh that has no morph targets".into()),
+    }
+}
+
+/// Weights that a file gives, those that belong to a morph target of mesh `mesh`. Where there are fewer, the others
+/// count as 0.
+pub(super) fn fitting(
+    document: &Document,
+    given: &[f32],
+    mesh: usize,
+    warnings: &mut Warnings,
+) -> Vec<f32> {
+    let targets = targets_of_mesh(document, mesh).unwrap_or(0);
+    if given.len() != targets {
+        warnings.add("there are more or fewer weights than morph targets");
+    }
+    given.iter().take(targets).copied().collect()
+}
 
 impl Reader<'_> {
     /// The morph targets of the primitive, for the vertices of `mesh`; `count` is how many vertices the file has.
@@ -74,12 +124,12 @@ impl Reader<'_> {
         let index = accessor.value();
         let elements = accessors::read(self.document, self.buffers, index, &[Type::Vec3])
             .map_err(Refusal::Problem)?;
+        self.spend(budget, elements.stored_count())
+            .map_err(Refusal::TooMany)?;
         if elements.count != count {
             let problem = format!("has {} elements for {count} positions", elements.count);
             return Err(Refusal::Problem(problem));
         }
-        self.spend(budget, elements.stored_count())
-            .map_err(Refusal::TooMany)?;
         let mut offsets = Vec::new();
         for i in elements.stored() {
             let offset = Vec3::from(elements.floats::<3>(i as usize));

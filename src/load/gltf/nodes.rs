@@ -6,7 +6,7 @@
 use super::Warnings;
 use super::document::{Document, named};
 use super::node_visibility::{self, Visibility};
-use super::{extensions, lights_punctual};
+use super::{extensions, lights_punctual, morph_targets};
 use crate::Error;
 use crate::load::Node;
 use crate::load::pose::{Factors, is_somewhere};
@@ -221,6 +221,12 @@ fn one(
         }
         None => None,
     };
+    let weights = match (&json.weights, shape) {
+        (Some(weights), Some(mesh)) => {
+            Some(morph_targets::fitting(document, weights, mesh, warnings))
+        }
+        _ => None,
+    };
     let visibility = extensions::read::<Visibility>(others, node_visibility::NAME);
     let is_hidden = match visibility {
         Ok(visibility) => visibility.is_some_and(|visibility| !visibility.visible),
@@ -237,7 +243,7 @@ fn one(
         camera,
         light,
         skin,
-        weights: json.weights.clone(),
+        weights,
         is_hidden,
     })
 }

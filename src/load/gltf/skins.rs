@@ -4,14 +4,12 @@ use super::accessors;
 use super::buffers::Buffers;
 use super::document::{Document, named};
 use super::primitives::{Kept, Reader};
-use super::{Warnings, accessors::Elements};
+use super::{Warnings, accessors::Elements, meshes};
 use crate::Error;
-use crate::load::Model;
-use crate::load::pose::{Deformation, Influence, Skin, Target};
+use crate::load::pose::{Deformation, Influence, Skin};
 use glam::{DAffine3, DMat3, DVec3};
 use gltf::json::accessor::Type;
 use gltf::json::mesh::Semantic;
-use std::collections::HashSet;
 
 /// Weights whose sum is further from 1 are worth a warning: 8-bit ones that were rounded one by one are nearer.
 const SUM_TOLERANCE: f32 = 0.01;
@@ -23,9 +21,10 @@ pub(super) fn all(
     warnings: &mut Warnings,
 ) -> Vec<Option<Skin>> {
     let skins = document.root.skins.iter().enumerate();
+    let mut budget = meshes::budget(buffers);
     skins
         .map(|(index, json)| {
-            let skin = one(document, buffers, json);
+            let skin = one(document, buffers, json, &mut budget);
             if let Err(problem) = &skin {
                 let place = named("skin", index, json.name.as_ref());
                 warnings.add(format!(
@@ -37,7 +36,13 @@ pub(super) fn all(
         .collect()
 }
 
-fn one(document: &Document, buffers: &Buffers, json: &gltf::json::Skin) -> Result<Skin, String> {
+/// A skin; what it reads is taken from `budget`, since many can be of the same bytes.
+fn one(
+    document: &Document,
+    buffers: &Buffers,
+    json: &gltf::json::Skin,
+    budget: &mut u64,
+) -> Result<Skin, String> {
     let nodes = document.root.nodes.len();
     let joints: Vec<usize> = json.joints.iter().map(|joint| joint.value()).collect();
     if let Some(joint) = joints.iter().find(|&&joint| joint >= nodes) {
@@ -52,8 +57,13 @@ fn one(document: &Document, buffers: &Buffers, json: &gltf::json::Skin) -> Resul
         });
     };
     let wrong = |problem: String| format!("inverse bind matrices: {problem}");
+    if *budget == 0 {
+        return Err(wrong("are many times what the buffers hold".into()));
+    }
     let matrices =
         accessors::read(document, buffers, accessor.value(), &[Type::Mat4]).map_err(wrong)?;
+    let read = joints.len() + matrices.stored_count();
+    *budget = budget.saturating_sub(read as u64);
     if matrices.count < joints.len() {
         let (found, expected) = (matrices.count, joints.len());
         return Err(wrong(format!("has {found} elements for {expected} joints")));
@@ -129,6 +139,7 @@ impl Reader<'_> {
             mended.share(of_vertex);
         }
         mended.tell(warnings);
+        deformation.last_joint = influences.iter().map(|influence| influence.joint).max();
         deformation.influences = influences;
         deformation.influences_a_vertex = each;
         Ok(())
@@ -225,67 +236,4 @@ impl Mended {
             warnings.add_times(message, count);
         }
     }
-}
-
-/// Takes skins from nodes that they do not fit, and poses from nodes that would come to more than `budget` vertices:
-/// a short file can show one long mesh in as many poses as it has nodes.
-pub(super) fn fit(model: &mut Model, mut budget: u64, warnings: &mut Warnings) {
-    let weighted_by_curves: HashSet<usize> = model.motion.weighted_nodes().collect();
-    let mut known = HashSet::new();
-    let mut left_out = HashSet::new();
-    for index in 0..model.nodes.len() {
-        let node = &model.nodes[index];
-        let Some(shape) = node.shape else {
-            continue;
-        };
-        let skin = node
-            .skin
-            .and_then(|skin| Some((skin, model.skins.get(skin)?)));
-        let mut problem = None;
-        let mut influenced = false;
-        let mut vertices = 0;
-        let is_weighted = node.weights.is_some() || weighted_by_curves.contains(&index);
-        let weighted = is_weighted.then_some(index);
-        let parts = model
-            .shapes
-            .get(shape)
-            .map_or(&[][..], |shape| &shape.parts);
-        for part in parts {
-            let Some(deformation) = model.deformations.get(&part.mesh) else {
-                continue;
-            };
-            influenced |= !deformation.influences.is_empty();
-            if let (Some(last), Some((_, skin))) = (deformation.last_joint(), skin)
-                && usize::from(last) >= skin.joints.len()
-            {
-                problem = Some("its mesh names joints that its skin lacks");
-            }
-            if known.insert((part.mesh, node.skin, weighted)) {
-                let mesh = model.meshes.get(part.mesh as usize);
-                vertices += mesh.map_or(0, |mesh| mesh.positions.len() as u64);
-            }
-        }
-        if skin.is_some() && !influenced && !parts.is_empty() {
-            problem = Some("its mesh has a skin, but no joints and weights");
-        }
-        let node = &mut model.nodes[index];
-        let place = named("node", index, Some(&node.name));
-        if let Some(problem) = problem {
-            warnings.add(format!("{place}: {problem}: it stands as its node does"));
-            node.skin = None;
-        }
-        match budget.checked_sub(vertices) {
-            Some(rest) => budget = rest,
-            None => {
-                warnings
-                    .add("a pose is left out: all of them are many times what the buffers hold");
-                (node.skin, node.weights) = (None, None);
-                left_out.insert(index);
-            }
-        }
-    }
-    model.motion.tracks.retain(|track| match track.target {
-        Target::NodeWeights(node) | Target::NodeWeight(node, _) => !left_out.contains(&node),
-        _ => true,
-    });
 }

@@ -13,6 +13,8 @@ pub(in crate::load) struct Deformation {
     pub(in crate::load) influences: Vec<Influence>,
     /// A multiple of 4, the same for every vertex.
     pub(in crate::load) influences_a_vertex: usize,
+    /// The greatest index of a joint that moves a vertex.
+    pub(in crate::load) last_joint: Option<u16>,
 }
 
 /// Another shape of a mesh, as what it adds to the first.
@@ -48,11 +50,6 @@ impl Deformation {
     /// Whether there is nothing to it.
     pub(in crate::load) fn is_empty(&self) -> bool {
         self.targets.is_empty() && self.influences.is_empty()
-    }
-
-    /// The joint with the greatest index that moves a vertex.
-    pub(in crate::load) fn last_joint(&self) -> Option<u16> {
-        self.influences.iter().map(|i| i.joint).max()
     }
 
     /// Whether weights change anything.

@@ -19,8 +19,8 @@ pub(in crate::load) struct PosedMeshes<'p, 'a> {
     pub(in crate::load) left_out: usize,
 }
 
-/// What tells posed meshes apart: the mesh, the skin, and the weights bit by bit.
-type Key = (u32, Option<usize>, Vec<u32>);
+/// What tells posed meshes apart: the mesh, the skin, and the node where that has weights of its own.
+type Key = (u32, Option<usize>, Option<usize>);
 
 impl<'p, 'a> PosedMeshes<'p, 'a> {
     /// None yet.
@@ -45,27 +45,25 @@ impl<'p, 'a> PosedMeshes<'p, 'a> {
             .node
             .skin
             .filter(|_| !deformation.influences.is_empty());
-        let weights = self.pose.weights(node);
-        let is_morphed = deformation.is_morphed(weights);
         let to_model = if skin.is_some() {
             DAffine3::IDENTITY
         } else {
             node.to_model
         };
-        if skin.is_none() && !is_morphed {
-            return (self.own(part.mesh), to_model);
-        }
-        let counting = if is_morphed { weights } else { &[] };
-        let bits = counting.iter().map(|weight| weight.to_bits()).collect();
-        let key: Key = (part.mesh, skin, bits);
+        let (weights, weighted) = self.pose.weights(node);
+        let key = (part.mesh, skin, weighted);
         if let Some(&known) = self.posed.get(&key) {
             return (known, to_model);
         }
-        let joints = skin.and_then(|skin| self.pose.joints.get(skin));
-        let base = &model.meshes[part.mesh as usize];
-        let (mesh, left_out) = deformation.posed(base, counting, joints.map(Vec::as_slice));
-        self.left_out += left_out;
-        let index = self.push(mesh);
+        let index = if skin.is_some() || deformation.is_morphed(weights) {
+            let joints = skin.and_then(|skin| self.pose.joints.get(skin));
+            let base = &model.meshes[part.mesh as usize];
+            let (mesh, left_out) = deformation.posed(base, weights, joints.map(Vec::as_slice));
+            self.left_out += left_out;
+            self.push(mesh)
+        } else {
+            self.own(part.mesh)
+        };
         self.posed.insert(key, index);
         (index, to_model)
     }
