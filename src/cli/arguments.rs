@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+use super::animation::AnimationArguments;
 use super::reading::Reading;
 use super::study::StudyArguments;
 use super::values::{self, BackgroundValue, Size, whole_number};
@@ -137,6 +138,9 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = values::field_of_view)]
     pub(super) fov: Option<f64>,
 
+    #[command(flatten)]
+    pub(super) animation: AnimationArguments,
+
     /// Threads to use [default: all cores]
     #[arg(short, long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(1..=1024))]
     pub(super) threads: Option<u32>,
@@ -216,6 +220,9 @@ pub(super) fn is_stdout(path: &Path) -> bool {
 pub(super) struct InfoArguments {
     /// A .glb, .gltf, .obj or .toml file
     pub(super) input: PathBuf,
+
+    #[command(flatten)]
+    pub(super) animation: AnimationArguments,
 
     /// Print it as JSON
     #[arg(long)]

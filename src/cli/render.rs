@@ -47,7 +47,7 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let settings = settings(arguments, &asset)?;
     let viewpoint = viewpoint(arguments, &settings)?;
     let (scene, choices) = asset
-        .scene(0.0, &viewpoint)
+        .scene(arguments.animation.time(), &viewpoint)
         .map_err(Failure::usage_or_scene)?;
     // A picture is encoded beside the film.
     let room = asset.check_film(&scene, 2 * settings.film_bytes());
@@ -91,7 +91,10 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
 
 /// The file, or the paper's figure 4.
 pub(super) fn open(arguments: &RenderArguments) -> Result<Asset, Failure> {
-    let options = arguments.reading.options();
+    let options = load::Options {
+        animation: arguments.animation.choice(),
+        ..arguments.reading.options()
+    };
     match &arguments.input {
         Some(path) => load::open(path, &options),
         None => load::scene_file::parse(FIGURE_4, Path::new(FIGURE_4_NAME), &options),

@@ -1,5 +1,6 @@
 //! What a file holds, before a choice of camera and time makes a scene of it.
 
+use super::pose::{Pose, PosedMeshes};
 use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
 use super::{Budget, Model, OutOfMemory, Warnings};
 use crate::Error;
@@ -83,13 +84,13 @@ pub struct PictureDefaults {
 }
 
 impl Asset {
-    /// The scene that a viewpoint sees, `time` seconds into the asset's animation, and what was chosen where neither
-    /// the file nor the user said. Animation is not read yet, so every time shows the same.
+    /// The scene that a viewpoint sees, `time` seconds into the animations that it was opened with, and what was chosen
+    /// where neither the file nor the user said. Before an animation's first key and after its last, it stands still.
     ///
     /// # Errors
     ///
     /// There is no camera of the wanted name, or what the file says makes no scene.
-    pub fn scene(&self, _time: f64, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
+    pub fn scene(&self, time: f64, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
         let mut choices = Choices::default();
         // What is described is a copy of what was read.
         let copy = |placed: &PlacedModel| placed.model.meshes.iter().map(Mesh::bytes).sum::<u64>();
@@ -104,10 +105,13 @@ impl Asset {
             lights: self.lights.clone(),
             ..SceneDescription::empty(placeholder)
         };
-        self.models
-            .iter()
-            .for_each(|placed| placed.add_to(&mut description));
-        description.camera = viewpoint::camera(self, viewpoint, &description, &mut choices)?;
+        let poses = self.poses(time);
+        for (placed, pose) in &poses {
+            placed.add_to(pose, &mut description, &mut choices);
+        }
+        description.camera =
+            viewpoint::camera(self, &poses, viewpoint, &description, &mut choices)?;
+        drop(poses);
         viewpoint::light(self, viewpoint, &mut description, &mut choices);
         description.background = viewpoint::background(self, viewpoint, &mut choices);
         let in_file = |problem| Error::Scene {
@@ -118,9 +122,17 @@ impl Asset {
         Ok((scene, choices))
     }
 
-    /// The cameras of its models, in the order in which a user may ask for them by index.
+    /// The cameras of its models as they stand at the beginning, in the order in which a user may ask for them by index.
     pub fn cameras(&self) -> Vec<PlacedCamera> {
-        viewpoint::cameras(self).collect()
+        viewpoint::cameras(&self.poses(0.0)).collect()
+    }
+
+    /// Each model, and its pose at a time.
+    pub(super) fn poses(&self, time: f64) -> Vec<(&PlacedModel, Pose<'_>)> {
+        let models = self.models.iter();
+        models
+            .map(|placed| (placed, Pose::at(&placed.model, time)))
+            .collect()
     }
 
     /// Finds whether a film of `bytes` fits into what the asset and its scene leave.
@@ -166,8 +178,8 @@ impl From<Model> for Asset {
 }
 
 impl PlacedModel {
-    /// Adds what the model's nodes place.
-    fn add_to(&self, scene: &mut SceneDescription) {
+    /// Adds what the model's nodes place in a pose.
+    fn add_to(&self, pose: &Pose, scene: &mut SceneDescription, choices: &mut Choices) {
         let model = &self.model;
         let [first_material, first_texture, first_mesh] = [
             scene.materials.len(),
@@ -176,19 +188,20 @@ impl PlacedModel {
         ]
         .map(|length| length as u32);
         scene.textures.extend_from_slice(&model.textures);
-        scene.meshes.extend_from_slice(&model.meshes);
         scene
             .materials
-            .extend(model.materials.iter().map(|material| {
+            .extend(pose.materials.iter().map(|material| {
                 let mut material = material.clone();
                 material
                     .textures_mut()
                     .for_each(|used| used.texture += first_texture);
                 material
             }));
-        for (node, to_model) in model.placed_nodes() {
-            let to_world = self.to_world * to_model;
-            if let Some(light) = node.light.and_then(|light| model.lights.get(light)) {
+        let mut meshes = PosedMeshes::of(pose);
+        for posed in pose.nodes.iter().filter(|posed| posed.is_visible) {
+            let node = posed.node;
+            let to_world = self.to_world * posed.to_model;
+            if let Some(light) = node.light.and_then(|light| pose.lights.get(light)) {
                 let name = if light.name.is_empty() {
                     &node.name
                 } else {
@@ -208,14 +221,30 @@ impl PlacedModel {
                 .shape
                 .and_then(|shape| model.shapes.get(shape))
                 .map_or(&[][..], |shape| &shape.parts);
-            for to_world in node.places(to_world) {
-                scene.instances.extend(parts.iter().map(|part| Instance {
-                    name: node.name.clone(),
-                    mesh: first_mesh + part.mesh,
-                    material: self.material.unwrap_or(first_material + part.material),
-                    to_world,
-                }));
+            for part in parts {
+                let (mesh, to_model) = meshes.place(posed, part);
+                for to_model in node.places(to_model) {
+                    scene.instances.push(Instance {
+                        name: node.name.clone(),
+                        mesh: first_mesh + mesh,
+                        material: self.material.unwrap_or(first_material + part.material),
+                        to_world: self.to_world * to_model,
+                    });
+                }
             }
         }
+        for (count, what) in [(pose.nowhere, "node"), (meshes.left_out, "triangle")] {
+            if count > 0 {
+                choices.lines.push(format!(
+                    "pose: {count} {what}{} whose place is not of finite numbers then",
+                    if count == 1 {
+                        " is left out,"
+                    } else {
+                        "s are left out,"
+                    }
+                ));
+            }
+        }
+        scene.meshes.append(&mut meshes.meshes);
     }
 }

@@ -1,4 +1,4 @@
-//! glTF 2.0, static: `.gltf` with its buffers and images beside it or inside it, and `.glb`.
+//! glTF 2.0: `.gltf` with its buffers and images beside it or inside it, and `.glb`.
 //!
 //! Crate `gltf` gives the typed document; what the document points at is read here, with bounds of our own: the crate
 //! trusts files, and luch opens any. Each extension has a file of its own, which `extensions.rs` lists.
@@ -6,6 +6,8 @@
 //! Parts of a file without a name are called by their index in it, from 0, as the file itself does.
 
 mod accessors;
+mod animation_pointer;
+mod animations;
 mod asks;
 mod base64;
 mod buffers;
@@ -39,10 +41,14 @@ mod mesh_gpu_instancing;
 mod mesh_quantization;
 mod meshes;
 mod meshopt;
+mod morph_targets;
+mod node_visibility;
 mod nodes;
 mod notes;
+mod poses;
 mod primitive_modes;
 mod primitives;
+mod skins;
 mod sparse;
 mod texture_basisu;
 mod texture_info;
@@ -58,6 +64,7 @@ use document::{Document, one_line};
 use implicit_shapes::Shapes;
 use materials_variants::Variants;
 use nodes::Contents;
+use std::collections::BTreeMap;
 use std::path::Path;
 use textures::Textures;
 
@@ -104,14 +111,22 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
     let (lights, light_indices) = compact(lights_punctual::all(&document, &mut warnings));
     let has_meshes = geometry.shapes.iter().any(|shape| !shape.parts.is_empty());
     let implicit = Shapes::read(&document, materials.len(), !has_meshes, &mut warnings);
+    let (skins, skin_indices) = compact(skins::all(&document, &buffers, &mut warnings));
     let contents = Contents {
         shapes: &geometry.shapes,
         cameras: &camera_indices,
         lights: &light_indices,
         implicit: &implicit,
+        skins: &skin_indices,
     };
     let instancing = mesh_gpu_instancing::Reader::new(&document, &buffers);
     let tree = nodes::read(&document, &contents, instancing, &mut warnings)?;
+
+    let places = animations::Places {
+        cameras: &camera_indices,
+        lights: &light_indices,
+    };
+    let (animations, motion) = animations::read(&document, &buffers, &places, &mut warnings);
 
     let root = &document.root;
     let name = |name: &Option<String>| name.clone().unwrap_or_default();
@@ -122,7 +137,7 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
         points: geometry.points,
         lines: geometry.lines,
         textures: textures.facts,
-        animations: root.animations.iter().map(|a| name(&a.name)).collect(),
+        animations,
         variants: variants.names,
         asks: asks::all(&document, extensions),
         notes: notes::all(&document),
@@ -138,6 +153,9 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
         roots: tree.roots,
         cameras,
         lights,
+        deformations: BTreeMap::new(),
+        skins,
+        motion,
         facts,
         warnings,
         files: own
@@ -160,6 +178,10 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
         return Err(meshes::nothing_to_draw(&document, &geometry));
     }
     (model.meshes, model.shapes) = (geometry.meshes, geometry.shapes);
+    model.deformations = geometry.deformations;
+    let mut warnings = std::mem::take(&mut model.warnings);
+    poses::fit(&mut model, meshes::budget(&buffers), &mut warnings);
+    model.warnings = warnings;
     Ok(model)
 }
 

@@ -1,5 +1,6 @@
 //! A model as its file has it: one shape for glTF and OBJ, before anything is placed.
 
+use super::pose::{Deformation, Motion, Skin};
 use super::{Analytic, Warnings};
 use crate::camera::Projection;
 use crate::light::Light;
@@ -7,6 +8,7 @@ use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::texture::Texture;
 use glam::DAffine3;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A model: meshes, what they are made of, and the tree of nodes that places them.
@@ -32,6 +34,12 @@ pub struct Model {
     pub cameras: Vec<ModelCamera>,
     /// Named by index; each at the origin of its node, shining along -Z.
     pub lights: Vec<Light>,
+    /// Of the meshes whose shape something may change, what does.
+    pub(super) deformations: BTreeMap<u32, Deformation>,
+    /// Named by index.
+    pub(super) skins: Vec<Skin>,
+    /// What the chosen animations do.
+    pub(super) motion: Motion,
     /// What `luch info` tells beside.
     pub facts: Facts,
     /// What was ignored or mended.
@@ -47,6 +55,8 @@ pub struct ModelMesh {
     pub name: String,
     /// The parts that can be drawn.
     pub parts: Vec<Part>,
+    /// How much each morph target counts, where a node does not say it.
+    pub(super) weights: Vec<f32>,
 }
 
 /// Triangles of one material.
@@ -77,6 +87,12 @@ pub struct Node {
     pub camera: Option<usize>,
     /// An index into the model's lights.
     pub light: Option<usize>,
+    /// An index into the model's skins.
+    pub(super) skin: Option<usize>,
+    /// How much each morph target of what it shows counts, where it says it.
+    pub(super) weights: Option<Vec<f32>>,
+    /// Whether it and what is below it is not seen.
+    pub is_hidden: bool,
 }
 
 /// A camera of a file, before a node places it.
@@ -107,8 +123,8 @@ pub struct Facts {
     pub lines: usize,
     /// Each image of the file.
     pub textures: Vec<TextureFacts>,
-    /// Names of animations; empty strings where they have none.
-    pub animations: Vec<String>,
+    /// Each animation of the file, chosen or not.
+    pub animations: Vec<AnimationFacts>,
     /// Names of the variants of materials; empty strings where they have none.
     pub variants: Vec<String>,
     /// What the file asks for, with what luch does about it.
@@ -124,6 +140,26 @@ pub struct TextureFacts {
     pub name: String,
     /// Its size in pixels, where it could be read.
     pub size: Option<(u32, u32)>,
+}
+
+/// An animation of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnimationFacts {
+    /// As in the file; may be empty.
+    pub name: String,
+    /// When its last key is.
+    pub seconds: f64,
+    /// What it moves, each kind once.
+    pub moves: Vec<Moved>,
+}
+
+/// A kind of thing that an animation moves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Moved {
+    /// As the file calls it: `rotation`, or the last part of a pointer, as in `baseColorFactor`.
+    pub what: String,
+    /// How many channels move one.
+    pub count: usize,
 }
 
 /// Something that a file asks for: an extension, or a part of its format that not every renderer has.
@@ -179,8 +215,17 @@ impl Node {
 }
 
 impl Model {
-    /// Every node that is drawn, with its transform to the model's space: the nodes under the roots, parents before
-    /// their children.
+    /// How much each morph target of what a node shows counts without animation.
+    pub(super) fn weights<'a>(&'a self, node: &'a Node) -> &'a [f32] {
+        let of_shape = || Some(self.shapes.get(node.shape?)?.weights.as_slice());
+        match &node.weights {
+            Some(weights) => weights,
+            None => of_shape().unwrap_or_default(),
+        }
+    }
+
+    /// Every node that is drawn, with its transform to the model's space as the file has it: the nodes under the roots,
+    /// parents before their children.
     pub fn placed_nodes(&self) -> Vec<(&Node, DAffine3)> {
         let mut placed = Vec::with_capacity(self.nodes.len());
         // A stack of its own: files have chains of nodes deeper than a thread's stack.

@@ -208,7 +208,7 @@ fn new_shape(model: &mut Model, name: &str) -> usize {
     let shape = model.shapes.len();
     model.shapes.push(ModelMesh {
         name: name.to_owned(),
-        parts: Vec::new(),
+        ..ModelMesh::default()
     });
     model.roots.push(model.nodes.len());
     model.nodes.push(Node {

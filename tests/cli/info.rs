@@ -54,7 +54,7 @@ a.gltf
   textures    1: grain (1 x 1)
   lights      1: sun
   cameras     1: door
-  animations  1: run
+  animation   0 \"run\": 0 s
   asks        KHR_lights_punctual, required: honoured
   asks        ACME_x: ignored
   asks        metallic-roughness materials: approximated: Blinn-Phong highlights as wide, mirror rays off what is smooth
@@ -96,7 +96,7 @@ fn everything_in_a_model_is_told_as_json() {
             "textures": [{"name": "grain", "size": [1, 1]}],
             "lights": ["sun"],
             "cameras": ["door"],
-            "animations": ["run"],
+            "animations": [{"name": "run", "seconds": 0.0, "moves": []}],
             "asks": [
                 {"what": "KHR_lights_punctual", "required": true, "treatment": "honoured", "by": null},
                 {"what": "ACME_x", "required": false, "treatment": "ignored", "by": null},

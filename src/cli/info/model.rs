@@ -1,6 +1,7 @@
 //! What is in a model.
 
 use super::super::asks::AskInfo;
+use super::animation::{self, Animation};
 use super::{Line, listed};
 use crate::cli::print::{self, counted};
 use indicatif::HumanCount;
@@ -23,7 +24,7 @@ pub(super) struct ModelInfo {
     textures: Vec<Texture>,
     lights: Vec<String>,
     cameras: Vec<String>,
-    animations: Vec<String>,
+    animations: Vec<Animation>,
     /// What the file asks for, and what luch does with it.
     asks: Vec<AskInfo>,
     /// `extras` and metadata, with whose they are.
@@ -69,7 +70,7 @@ impl ModelInfo {
             textures: facts.textures.iter().map(texture).collect(),
             lights: model.lights.iter().map(|l| l.name.clone()).collect(),
             cameras: model.cameras.iter().map(|c| c.name.clone()).collect(),
-            animations: facts.animations.clone(),
+            animations: facts.animations.iter().map(Animation::of).collect(),
             asks: facts.asks.iter().map(AskInfo::of).collect(),
             notes: facts.notes.iter().map(NoteInfo::of).collect(),
         }
@@ -94,8 +95,8 @@ impl ModelInfo {
             ("textures", listed(&textures)),
             ("lights", listed(&self.lights)),
             ("cameras", listed(&self.cameras)),
-            ("animations", listed(&self.animations)),
         ]);
+        lines.extend(animation::in_words(&self.animations));
         lines.extend(self.asks.iter().map(|ask| ("asks", ask.in_words())));
         let notes = self.notes.iter().take(SHOWN_NOTES);
         lines.extend(notes.map(|note| ("note", note.in_words())));

@@ -124,6 +124,36 @@ impl<'a> Elements<'a> {
         made
     }
 
+    /// The elements that may be other than zero, in rising order.
+    pub(super) fn stored(&self) -> Vec<u32> {
+        match self.base {
+            Some(_) => (0..u32::try_from(self.count).unwrap_or(u32::MAX)).collect(),
+            None => self.changes.iter().map(|&(index, _)| index).collect(),
+        }
+    }
+
+    /// How many elements [`Elements::stored`] has.
+    pub(super) fn stored_count(&self) -> usize {
+        match self.base {
+            Some(_) => self.count,
+            None => self.changes.len(),
+        }
+    }
+
+    /// Every number of every element, in order.
+    pub(super) fn all_numbers(&self) -> Vec<f32> {
+        let size = self.component.size();
+        let mut numbers = Vec::with_capacity(self.count.saturating_mul(self.components));
+        for i in 0..self.count {
+            let element = self.element(i);
+            numbers.extend((0..self.components).map(|c| {
+                let number = element.get(c * size..).unwrap_or_default();
+                float(number, self.component, self.normalized)
+            }));
+        }
+        numbers
+    }
+
     fn numbers<const N: usize>(&self, element: &[u8]) -> [f32; N] {
         let size = self.component.size();
         std::array::from_fn(|c| {

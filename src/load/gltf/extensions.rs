@@ -2,12 +2,12 @@
 
 use super::document::{Document, one_line};
 use super::{
-    Warnings, draco, emissive_strength, implicit_shapes, lights_punctual, materials_anisotropy,
-    materials_clearcoat, materials_diffuse_transmission, materials_dispersion, materials_ior,
-    materials_iridescence, materials_sheen, materials_specular, materials_specular_glossiness,
-    materials_transmission, materials_unlit, materials_variants, materials_volume,
-    mesh_gpu_instancing, mesh_quantization, meshopt, notes, texture_basisu, texture_transform,
-    texture_webp,
+    Warnings, animation_pointer, draco, emissive_strength, implicit_shapes, lights_punctual,
+    materials_anisotropy, materials_clearcoat, materials_diffuse_transmission,
+    materials_dispersion, materials_ior, materials_iridescence, materials_sheen,
+    materials_specular, materials_specular_glossiness, materials_transmission, materials_unlit,
+    materials_variants, materials_volume, mesh_gpu_instancing, mesh_quantization, meshopt,
+    node_visibility, notes, texture_basisu, texture_transform, texture_webp,
 };
 use crate::Error;
 use crate::load::{Ask, Treatment};
@@ -22,6 +22,8 @@ const KNOWN: &[(&str, Treatment)] = &[
     (mesh_quantization::NAME, Treatment::Honoured),
     (meshopt::NAMES[0], Treatment::Honoured),
     (meshopt::NAMES[1], Treatment::Honoured),
+    (animation_pointer::NAME, Treatment::Honoured),
+    (node_visibility::NAME, Treatment::Honoured),
     (emissive_strength::NAME, Treatment::Honoured),
     (implicit_shapes::NAME, Treatment::Honoured),
     (lights_punctual::NAME, Treatment::Honoured),

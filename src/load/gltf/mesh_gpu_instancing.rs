@@ -5,7 +5,7 @@ use super::buffers::Buffers;
 use super::document::Document;
 use super::elements::Elements;
 use super::extensions;
-use super::nodes;
+use crate::load::pose::Factors;
 use glam::DAffine3;
 use gltf::json::Node;
 use gltf::json::accessor::Type;
@@ -77,11 +77,12 @@ impl<'a> Reader<'a> {
                 format!("{count} instances of {parts} parts are many times what the buffers hold")
             })?;
         let transform = |i| {
-            nodes::transform(
+            Factors::new(
                 translation.as_ref().map(|elements| elements.floats(i)),
                 rotation.as_ref().map(|elements| elements.floats(i)),
                 scale.as_ref().map(|elements| elements.floats(i)),
             )
+            .matrix()
         };
         Ok(Some((0..count).map(transform).collect()))
     }

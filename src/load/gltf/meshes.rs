@@ -3,16 +3,19 @@
 use super::buffers::Buffers;
 use super::document::{Document, named};
 use super::materials_variants::Variants;
-use super::primitives::{Drawn, Reader};
-use super::{Warnings, draco};
+use super::primitives::{Changing, Drawn, Reader};
+use super::{Warnings, draco, morph_targets};
 use crate::Error;
-use crate::load::{ModelMesh, Part};
+use crate::load::pose::Deformation;
+use crate::load::{AnimationChoice, ModelMesh, Part};
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::texture::TextureUse;
+use gltf::json::Index;
+use gltf::json::accessor::Accessor;
 use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// How many corners and vertices a file may come to for each byte of its buffers: one byte can be the index of three
 /// corners in a strip. Files that come to more read the same bytes again and again.
@@ -25,6 +28,8 @@ const FREE_ELEMENTS: u64 = 1 << 20;
 pub(super) struct Geometry {
     /// One for each primitive that draws triangles.
     pub(super) meshes: Vec<Mesh>,
+    /// Of those whose shape something may change, what does.
+    pub(super) deformations: BTreeMap<u32, Deformation>,
     /// One for each mesh of the file, by its index in it.
     pub(super) shapes: Vec<ModelMesh>,
     /// How many triangles.
@@ -38,13 +43,26 @@ pub(super) struct Geometry {
 }
 
 /// What tells primitives apart, but for their material.
-type Key = (
-    Vec<(String, usize)>,
-    Option<usize>,
-    Option<draco::Compressed>,
-    u32,
-    Option<(u8, Option<[u32; 9]>)>,
-);
+#[derive(PartialEq, Eq, Hash)]
+struct Key {
+    attributes: Vec<(String, usize)>,
+    indices: Option<usize>,
+    compressed: Option<draco::Compressed>,
+    mode: u32,
+    /// The set of texture coordinates, and their transform.
+    tangents: Option<(u8, Option<[u32; 9]>)>,
+    changing: Changing,
+    /// Positions, normals, tangents.
+    targets: Vec<[Option<usize>; 3]>,
+}
+
+/// How many corners and vertices a file may come to.
+pub(super) fn budget(buffers: &Buffers) -> u64 {
+    buffers
+        .total_bytes
+        .saturating_mul(ELEMENTS_A_BYTE)
+        .saturating_add(FREE_ELEMENTS)
+}
 
 /// Reads every mesh of the file. The last of `materials` is the default.
 ///
@@ -60,15 +78,18 @@ pub(super) fn all(
 ) -> Result<Geometry, Error> {
     let mut geometry = Geometry::default();
     let mut known: HashMap<Key, Option<u32>> = HashMap::new();
-    let mut budget = buffers
-        .total_bytes
-        .saturating_mul(ELEMENTS_A_BYTE)
-        .saturating_add(FREE_ELEMENTS);
+    let mut budget = budget(buffers);
+    let changes = changes(document);
     for (index, mesh) in document.root.meshes.iter().enumerate() {
         let mut shape = ModelMesh {
             name: mesh.name.clone().unwrap_or_default(),
             parts: Vec::new(),
+            weights: match &mesh.weights {
+                Some(weights) => morph_targets::fitting(document, weights, index, warnings),
+                None => Vec::new(),
+            },
         };
+        let changing = changes.get(index).copied().unwrap_or_default();
         let name = named("mesh", index, mesh.name.as_ref());
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let place = format!("{name}, primitive {number}");
@@ -77,13 +98,6 @@ pub(super) fn all(
                 Some(index) => document.checked(place.as_str(), "material", index, default)?,
                 None => default,
             };
-            if primitive
-                .targets
-                .as_ref()
-                .is_some_and(|targets| !targets.is_empty())
-            {
-                warnings.add("morph targets are ignored: meshes have their own shape");
-            }
             let Checked::Valid(mode) = primitive.mode else {
                 return Err(
                     document.malformed(place.as_str(), "its mode is unknown, expected 0 to 6")
@@ -93,7 +107,7 @@ pub(super) fn all(
             let normal_map = normal_map.map(|map| &map.texture);
             let wrong = |problem| document.malformed(format!("{place}, {}", draco::NAME), problem);
             let compressed = draco::of(primitive).map_err(wrong)?;
-            let key = key(primitive, &compressed, mode, normal_map);
+            let key = key(primitive, &compressed, mode, normal_map, changing);
             let drawn = match known.get(&key) {
                 Some(&drawn) => drawn,
                 None => {
@@ -117,7 +131,7 @@ pub(super) fn all(
                         stream,
                         place: place.clone(),
                     };
-                    let drawn = reader.read(mode, normal_map, &mut budget, warnings)?;
+                    let drawn = reader.read(mode, normal_map, changing, &mut budget, warnings)?;
                     let drawn = geometry.take(drawn, &mesh.name);
                     known.insert(key, drawn);
                     drawn
@@ -147,7 +161,7 @@ impl Geometry {
         match drawn {
             Drawn::Points(count) => self.points += count,
             Drawn::Lines(count) => self.lines += count,
-            Drawn::Triangles(mut mesh, left_out) => {
+            Drawn::Triangles(mut mesh, deformation, left_out) => {
                 self.not_finite += left_out;
                 if mesh.triangles.is_empty() {
                     return None;
@@ -155,11 +169,44 @@ impl Geometry {
                 self.triangles += mesh.triangles.len();
                 mesh.name = name.clone().unwrap_or_default();
                 self.meshes.push(mesh);
-                return Some(self.meshes.len() as u32 - 1);
+                let index = self.meshes.len() as u32 - 1;
+                if !deformation.is_empty() {
+                    self.deformations.insert(index, deformation);
+                }
+                return Some(index);
             }
         }
         None
     }
+}
+
+/// How much each morph target of a mesh counts, where a node does not say it.
+fn weights(document: &Document, mesh: usize) -> &[f32] {
+    let mesh = document.root.meshes.get(mesh);
+    mesh.and_then(|mesh| mesh.weights.as_deref())
+        .unwrap_or_default()
+}
+
+/// What may change the shape of each mesh: joints where a node gives it a skin; morph targets where they count, or an
+/// animation may make them count.
+fn changes(document: &Document) -> Vec<Changing> {
+    let count = |weights: &[f32]| weights.iter().any(|&weight| weight != 0.0);
+    let moves =
+        document.options.animation != AnimationChoice::None && !document.root.animations.is_empty();
+    let mut changes: Vec<Changing> = (0..document.root.meshes.len())
+        .map(|mesh| Changing {
+            morphs: moves || count(weights(document, mesh)),
+            bends: false,
+        })
+        .collect();
+    for node in &document.root.nodes {
+        let mesh = node.mesh.and_then(|mesh| changes.get_mut(mesh.value()));
+        if let Some(changing) = mesh {
+            changing.bends |= node.skin.is_some();
+            changing.morphs |= node.weights.as_deref().is_some_and(count);
+        }
+    }
+    changes
 }
 
 fn key(
@@ -167,6 +214,7 @@ fn key(
     compressed: &Option<draco::Compressed>,
     mode: Mode,
     normal_map: Option<&TextureUse>,
+    changing: Changing,
 ) -> Key {
     let attributes = primitive.attributes.iter();
     let attributes = attributes
@@ -176,12 +224,25 @@ fn key(
         })
         .collect();
     let indices = primitive.indices.map(|index| index.value());
-    let compressed = compressed.clone();
     let tangents = normal_map.map(|map| {
         let transform = map.transform.map(|m| m.to_cols_array().map(f32::to_bits));
         (map.uv_set, transform)
     });
-    (attributes, indices, compressed, mode.as_gl_enum(), tangents)
+    let index = |accessor: Option<Index<Accessor>>| accessor.map(|index| index.value());
+    let targets = primitive.targets.iter().flatten();
+    let targets = targets
+        .map(|target| [target.positions, target.normals, target.tangents].map(index))
+        .filter(|_| changing.morphs)
+        .collect();
+    Key {
+        attributes,
+        indices,
+        compressed: compressed.clone(),
+        mode: mode.as_gl_enum(),
+        tangents,
+        changing,
+        targets,
+    }
 }
 
 fn warn_of_missing_coordinates(

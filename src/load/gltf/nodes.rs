@@ -6,10 +6,12 @@
 use super::Warnings;
 use super::document::{Document, named};
 use super::implicit_shapes::Shapes;
-use super::{extensions, lights_punctual, mesh_gpu_instancing};
+use super::node_visibility::{self, Visibility};
+use super::{extensions, lights_punctual, mesh_gpu_instancing, morph_targets};
 use crate::Error;
+use crate::load::pose::{Factors, is_somewhere};
 use crate::load::{ModelMesh, Node, choice};
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 use gltf::json::Node as NodeJson;
 
 /// The nodes of a file and those at the top of what is drawn.
@@ -21,12 +23,13 @@ pub(super) struct Tree {
     pub(super) roots: Vec<usize>,
 }
 
-/// What nodes may hold: the file's meshes, and where in the model each of its cameras and lights went.
+/// What nodes may hold: the file's meshes, and where in the model each of its cameras, lights and skins went.
 pub(super) struct Contents<'a> {
     pub(super) shapes: &'a [ModelMesh],
     pub(super) cameras: &'a [Option<usize>],
     pub(super) lights: &'a [Option<usize>],
     pub(super) implicit: &'a Shapes,
+    pub(super) skins: &'a [Option<usize>],
 }
 
 /// Reads the nodes of a file and its scene: the one that the user asks for or the file names, else its first, else every
@@ -226,9 +229,36 @@ fn one(
             None
         }
     };
-    if json.skin.is_some() && shape.is_some() {
-        warnings.add("skins are ignored: a mesh with one stands as its node does");
-    }
+    let skin = match json.skin {
+        Some(_) if shape.is_none() => None,
+        Some(skin) => {
+            let count = contents.skins.len();
+            let known = contents.skins.get(skin.value());
+            if known.is_none() {
+                let skin = skin.value();
+                warnings.add(format!(
+                    "{}: skin {skin} does not exist, there are {count}: it is ignored",
+                    place()
+                ));
+            }
+            known.copied().flatten()
+        }
+        None => None,
+    };
+    let weights = match (&json.weights, shape) {
+        (Some(weights), Some(mesh)) => {
+            Some(morph_targets::fitting(document, weights, mesh, warnings))
+        }
+        _ => None,
+    };
+    let visibility = extensions::read::<Visibility>(others, node_visibility::NAME);
+    let is_hidden = match visibility {
+        Ok(visibility) => visibility.is_some_and(|visibility| !visibility.visible),
+        Err(problem) => {
+            warnings.add(format!("{}: {problem}: it is seen", place()));
+            false
+        }
+    };
     Ok(Node {
         name: json.name.clone().unwrap_or_default(),
         children,
@@ -240,6 +270,9 @@ fn one(
         instances: None,
         camera,
         light,
+        skin,
+        weights,
+        is_hidden,
     })
 }
 
@@ -255,33 +288,25 @@ fn to_parent(json: &NodeJson, warnings: &mut Warnings) -> DAffine3 {
         }
         return DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z), w);
     }
+    factors(json, warnings).matrix()
+}
+
+/// A node's transform in the factors that animations change; a matrix has them only as far as it does not shear.
+pub(super) fn factors_of(json: &NodeJson) -> Factors {
+    let mut told_already = Warnings::default();
+    if json.matrix.is_some() {
+        Factors::of(&to_parent(json, &mut told_already))
+    } else {
+        factors(json, &mut told_already)
+    }
+}
+
+fn factors(json: &NodeJson, warnings: &mut Warnings) -> Factors {
     let rotation = json.rotation.map(|rotation| rotation.0);
     if rotation == Some([0.0; 4]) {
         warnings.add("a node's rotation without length is ignored");
     }
-    transform(json.translation, rotation, json.scale)
-}
-
-/// `translation * rotation * scale`; a rotation without length is none.
-pub(super) fn transform(
-    translation: Option<[f32; 3]>,
-    rotation: Option<[f32; 4]>,
-    scale: Option<[f32; 3]>,
-) -> DAffine3 {
-    let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
-    let rotation = rotation.map(|rotation| DQuat::from_array(rotation.map(f64::from)));
-    DAffine3::from_scale_rotation_translation(
-        scale.map_or(DVec3::ONE, vector),
-        rotation
-            .filter(|rotation| *rotation != DQuat::from_array([0.0; 4]))
-            .map_or(DQuat::IDENTITY, DQuat::normalize),
-        translation.map_or(DVec3::ZERO, vector),
-    )
-}
-
-fn is_of_32_bits(transform: &DAffine3) -> bool {
-    let numbers = transform.to_cols_array();
-    numbers.iter().all(|x| x.abs() <= f64::from(f32::MAX))
+    Factors::new(json.translation, rotation, json.scale)
 }
 
 impl Tree {
@@ -296,10 +321,10 @@ impl Tree {
         while let Some((index, above)) = open.pop() {
             let node = &mut self.nodes[index];
             let to_model = above * node.to_parent;
-            if is_of_32_bits(&to_model) {
+            if is_somewhere(&to_model) {
                 if let Some(instances) = &mut node.instances {
                     let count = instances.len();
-                    instances.retain(|instance| is_of_32_bits(&(to_model * *instance)));
+                    instances.retain(|instance| is_somewhere(&(to_model * *instance)));
                     let problem =
                         "an instance whose transform is not of finite numbers is not drawn";
                     warnings.add_times(problem, count - instances.len());

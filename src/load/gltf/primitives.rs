@@ -6,8 +6,9 @@ use super::buffers::Buffers;
 use super::document::Document;
 use super::draco::Unpacked;
 use super::elements::Elements;
-use super::primitive_modes;
+use super::{morph_targets, primitive_modes, skins};
 use crate::Error;
+use crate::load::pose::Deformation;
 use crate::load::tangents::{self, TooCrowded};
 use crate::mesh::Mesh;
 use crate::texture::TextureUse;
@@ -34,12 +35,22 @@ const BYTES_A_VERTEX: u64 = 64;
 
 /// What a primitive draws.
 pub(super) enum Drawn {
-    /// Triangles, perhaps none, and how many were left out since a position of theirs is no number.
-    Triangles(Mesh, usize),
+    /// Triangles, perhaps none, what may change their shape, and how many were left out since a position of theirs is
+    /// no number.
+    Triangles(Mesh, Deformation, usize),
     /// So many points, which luch does not draw.
     Points(usize),
     /// So many line segments, which luch does not draw.
     Lines(usize),
+}
+
+/// What may change the shape of a primitive, and need not be read where nothing does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(super) struct Changing {
+    /// Morph targets.
+    pub(super) morphs: bool,
+    /// Joints.
+    pub(super) bends: bool,
 }
 
 impl Reader<'_> {
@@ -53,6 +64,7 @@ impl Reader<'_> {
         mut self,
         mode: Mode,
         normal_map: Option<&TextureUse>,
+        changing: Changing,
         budget: &mut u64,
         warnings: &mut Warnings,
     ) -> Result<Drawn, Error> {
@@ -61,7 +73,7 @@ impl Reader<'_> {
         let Some(positions) = self.attribute(&Semantic::Positions, "POSITION", &[Type::Vec3], 0)?
         else {
             warnings.add(format!("{}: has no POSITION and is not drawn", self.place));
-            return Ok(Drawn::Triangles(Mesh::default(), 0));
+            return Ok(Drawn::Triangles(Mesh::default(), Deformation::default(), 0));
         };
         let mut triangles = match self.faces(mode, in_stream, &positions, budget, warnings)? {
             Faces::Triangles(triangles) => triangles,
@@ -79,10 +91,23 @@ impl Reader<'_> {
         let problem = "a triangle with a position that is no number is not drawn";
         warnings.add_times(format!("{}: {problem}", self.place), left_out);
         self.attributes(&mut mesh, &kept, positions.count, warnings)?;
+        let mut old_vertices = None;
         if let Some(map) = normal_map {
-            mesh = self.tangents(mesh, &kept, positions.count, map, warnings)?;
+            (mesh, old_vertices) = self.tangents(mesh, &kept, positions.count, map, warnings)?;
         }
-        Ok(Drawn::Triangles(mesh, left_out))
+        let mut deformation = Deformation::default();
+        if changing.morphs {
+            let count = positions.count;
+            deformation.targets = self.morph_targets(&mesh, &kept, count, budget, warnings)?;
+        }
+        if changing.bends {
+            self.influences(&mut deformation, &kept, positions.count, budget, warnings)?;
+        }
+        if let Some(old_vertices) = old_vertices {
+            morph_targets::split(&mut deformation.targets, &old_vertices);
+            skins::split(&mut deformation, &old_vertices);
+        }
+        Ok(Drawn::Triangles(mesh, deformation, left_out))
     }
 
     /// Normals, texture coordinates and colours.
@@ -122,8 +147,9 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's. The
-    /// file's stay as they are where the map is turned (KHR_texture_transform): who wrote them knew of that.
+    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's and
+    /// which of the old vertices each was. The file's stay as they are where the map is turned (KHR_texture_transform):
+    /// who wrote them knew of that.
     fn tangents(
         &self,
         mut mesh: Mesh,
@@ -131,7 +157,7 @@ impl Reader<'_> {
         count: usize,
         map: &TextureUse,
         warnings: &mut Warnings,
-    ) -> Result<Mesh, Error> {
+    ) -> Result<(Mesh, Option<Vec<usize>>), Error> {
         let set = usize::from(map.uv_set);
         let given = self.attribute(&Semantic::Tangents, "TANGENT", &[Type::Vec4], count)?;
         if let Some(tangents) = given.filter(|_| !mesh.normals.is_empty()) {
@@ -140,26 +166,27 @@ impl Reader<'_> {
                 let along = tangent.truncate().normalize_or_zero();
                 along.extend(if tangent.w < 0.0 { -1.0 } else { 1.0 })
             });
-            return Ok(mesh);
+            return Ok((mesh, None));
         }
         if mesh.uvs.get(set).is_none_or(Vec::is_empty) {
             warnings.add(format!(
                 "{}: has no TEXCOORD_{set}, so that its normal map is ignored",
                 self.place
             ));
-            return Ok(mesh);
+            return Ok((mesh, None));
         }
-        if let Err(TooCrowded) = tangents::add(&mut mesh, set, map.transform.as_ref()) {
+        let split = tangents::add(&mut mesh, set, map.transform.as_ref());
+        if let Err(TooCrowded) = split {
             warnings.add(format!(
                 "{}: too many corners meet in one point for tangents, so that its normal map is ignored",
                 self.place
             ));
         }
-        Ok(mesh)
+        Ok((mesh, split.ok()))
     }
 
     /// An attribute with at least `count` elements, if the primitive has it.
-    fn attribute(
+    pub(super) fn attribute(
         &self,
         semantic: &Semantic,
         name: &str,
@@ -267,7 +294,12 @@ impl Reader<'_> {
     }
 
     /// Takes elements from the file's allowance, and their memory.
-    fn spend(&self, budget: &mut u64, elements: usize, bytes_each: u64) -> Result<(), Error> {
+    pub(super) fn spend(
+        &self,
+        budget: &mut u64,
+        elements: usize,
+        bytes_each: u64,
+    ) -> Result<(), Error> {
         let bytes = bytes_each.saturating_mul(elements as u64);
         self.document.take(bytes, self.place.as_str())?;
         match budget.checked_sub(elements as u64) {
@@ -318,7 +350,7 @@ fn leave_out(mesh: &mut Mesh) -> usize {
 
 /// Which of an accessor's vertices a mesh keeps. Files share one long accessor between many primitives; each keeps
 /// only what it draws.
-enum Kept {
+pub(super) enum Kept {
     All(usize),
     /// In rising order.
     Some(Vec<u32>),
@@ -340,10 +372,26 @@ impl Kept {
         Kept::Some(used)
     }
 
-    fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         match self {
             Kept::All(count) => *count,
             Kept::Some(used) => used.len(),
+        }
+    }
+
+    /// Where vertex `old` of the accessor went, if it is kept.
+    pub(super) fn place_of(&self, old: u32) -> Option<u32> {
+        match self {
+            Kept::All(_) => Some(old),
+            Kept::Some(used) => used.binary_search(&old).ok().map(|place| place as u32),
+        }
+    }
+
+    /// The kept vertices of the accessor, in order.
+    pub(super) fn vertices(&self) -> Vec<u32> {
+        match self {
+            Kept::All(count) => (0..*count as u32).collect(),
+            Kept::Some(used) => used.clone(),
         }
     }
 

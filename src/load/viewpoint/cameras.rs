@@ -5,18 +5,20 @@ use super::{CameraChoice, Choices, Viewpoint};
 use crate::Error;
 use crate::camera::{Camera, Clip, Fov, Projection};
 use crate::framing;
-use crate::load::{Asset, CameraSource, choice};
+use crate::load::pose::Pose;
+use crate::load::{Asset, CameraSource, PlacedModel, choice};
 use crate::scene::SceneDescription;
 use glam::DVec3;
 
 /// The camera that the user, the file or the framing gives, with the field of view that the user asks for.
 pub(in crate::load) fn camera(
     asset: &Asset,
+    poses: &[(&PlacedModel, Pose)],
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
-    let camera = chosen_camera(asset, viewpoint, scene, choices)?;
+    let camera = chosen_camera(asset, poses, viewpoint, scene, choices)?;
     let asked = viewpoint
         .fov_y
         .map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
@@ -28,12 +30,13 @@ pub(in crate::load) fn camera(
 
 fn chosen_camera(
     asset: &Asset,
+    poses: &[(&PlacedModel, Pose)],
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
     let of_file = |name: &str| {
-        camera_of_model(asset, name).map_err(|problem| Error::malformed(&asset.file, "", problem))
+        camera_of_model(poses, name).map_err(|problem| Error::malformed(&asset.file, "", problem))
     };
     match (&viewpoint.camera, &asset.camera) {
         (CameraChoice::Given(camera), _) => Ok(*camera),
@@ -41,7 +44,7 @@ fn chosen_camera(
         (CameraChoice::OfFile, Some(CameraSource::Given(camera))) => Ok(*camera),
         (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => of_file(name),
         (CameraChoice::OfFile, None) => {
-            let first = cameras(asset).next();
+            let first = cameras(poses).next();
             Ok(first.map(|placed| placed.camera).unwrap_or_else(|| {
                 choices.lines.push(
                     "camera: none in the file; a three-quarter view, fitted to the model".into(),
@@ -68,12 +71,14 @@ pub struct PlacedCamera {
 }
 
 /// Every camera that a node of a model places.
-pub(in crate::load) fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
-    asset.models.iter().flat_map(|placed| {
-        let nodes = placed.model.placed_nodes();
-        nodes.into_iter().filter_map(move |(node, to_model)| {
-            let camera = placed.model.cameras.get(node.camera?)?;
-            let to_world = placed.to_world * to_model;
+pub(in crate::load) fn cameras(
+    poses: &[(&PlacedModel, Pose)],
+) -> impl Iterator<Item = PlacedCamera> {
+    poses.iter().flat_map(|(placed, pose)| {
+        pose.nodes.iter().filter_map(|posed| {
+            let node = posed.node;
+            let camera = pose.cameras.get(node.camera?)?;
+            let to_world = placed.to_world * posed.to_model;
             let position = to_world.translation;
             // Directions only: a camera does not grow with its node (glTF 2.0, section 3.10).
             let forward = to_world
@@ -105,8 +110,8 @@ pub(in crate::load) fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCame
 }
 
 /// The camera that goes by a name, its own or else its node's, or that has this index.
-fn camera_of_model(asset: &Asset, wanted: &str) -> Result<Camera, String> {
-    let cameras: Vec<PlacedCamera> = cameras(asset).collect();
+fn camera_of_model(poses: &[(&PlacedModel, Pose)], wanted: &str) -> Result<Camera, String> {
+    let cameras: Vec<PlacedCamera> = cameras(poses).collect();
     let names: Vec<&str> = cameras.iter().map(|placed| placed.name.as_str()).collect();
     let by_node = || cameras.iter().position(|placed| placed.node == wanted);
     let index = match choice::find("camera", wanted, &names) {
