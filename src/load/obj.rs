@@ -16,8 +16,8 @@
 //! - A face that makes no sense is left out; a vertex that makes no sense is an error, since indices count them.
 //! - Materials: see `obj/materials.rs`, `obj/pbr.rs` and `obj/glass.rs`. Pictures of heights become normals: see
 //!   `obj/bump.rs`.
-//! - Blender 4.5 was the measure: of the 168 files of a collection that both read, they agree in triangles, area,
-//!   shading normals and colours in all but a few where Blender is further from what the file says.
+//! - Blender 4.5 was the measure: of 170 files that both read, 150 have the same triangles, area, shading normals and
+//!   colours; of the others Blender finds nothing to draw in 9, and differs by triangles without area in 4.
 
 mod bump;
 mod find;
