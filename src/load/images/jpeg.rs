@@ -4,6 +4,9 @@
 //! crate's features `x86`, `neon` and `portable_simd` are off, behind which every use of intrinsics stands (0.5.15). Its
 //! options could not do it: `set_use_unsafe(false)` leaves AVX2 on (`use_avx2` in zune-core 0.5.3 takes either of two
 //! flags). So no other dependency may switch these features on: `cargo tree -e features -i zune-jpeg` shows who does.
+//!
+//! Against libjpeg-turbo (Pillow 13.0) on 133 x 77 pixels: baseline and progressive, grey, RGB, CMYK, YCCK, 4:4:4, 4:1:1
+//! differ by 3 of 255 at most, colours of half size (4:2:2, 4:4:0, 4:2:0), which each decoder smooths its own way, by 4.
 
 use super::{Header, most_pixels, rgba, said};
 use crate::texture::Pixels;

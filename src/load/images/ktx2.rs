@@ -1,8 +1,8 @@
 //! KTX2 with Basis Universal by crate `basisu`: ETC1S with BasisLZ, and UASTC plain or with Zstandard. Level 0 only.
 //!
-//! The crate (0.1.0, pure Rust, integers only on the way to RGBA) is a port of the reference transcoder; its bytes were
-//! compared with that one's on the shared models. It trusts a file's offsets, so that every one that it follows is
-//! checked here first.
+//! The crate (0.1.0, pure Rust, integers only on the way to RGBA) is a port of the reference transcoder: of 21 files no
+//! byte differs from what that one makes of them (three.js 0.187's WebAssembly). It trusts a file's offsets, so that
+//! every one that it follows is checked here first.
 
 use super::{Header, most_pixels};
 use crate::texture::Pixels;
