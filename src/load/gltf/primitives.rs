@@ -27,7 +27,7 @@ pub(super) struct Reader<'a> {
 pub(super) enum Drawn {
     /// Triangles, perhaps none, what may change their shape, and how many were left out since a position of theirs is
     /// no number.
-    Triangles(Mesh, Deformation, usize),
+    Triangles(Box<(Mesh, Deformation)>, usize),
     /// So many points, which luch does not draw.
     Points(usize),
     /// So many line segments, which luch does not draw.
@@ -61,7 +61,7 @@ impl Reader<'_> {
         let Some(positions) = self.attribute(&Semantic::Positions, "POSITION", &[Type::Vec3], 0)?
         else {
             warnings.add(format!("{}: has no POSITION and is not drawn", self.place));
-            return Ok(Drawn::Triangles(Mesh::default(), Deformation::default(), 0));
+            return Ok(Drawn::Triangles(Box::default(), 0));
         };
         let corners = self.corners(&positions, budget)?;
         let left_over = primitive_modes::left_over(mode, corners.len());
@@ -112,7 +112,7 @@ impl Reader<'_> {
             morph_targets::split(&mut deformation.targets, &old_vertices);
             skins::split(&mut deformation, &old_vertices);
         }
-        Ok(Drawn::Triangles(mesh, deformation, left_out))
+        Ok(Drawn::Triangles(Box::new((mesh, deformation)), left_out))
     }
 
     /// Normals, texture coordinates and colours.
