@@ -205,12 +205,14 @@ fn facts(animation: &Animation, numbers: &mut Numbers) -> AnimationFacts {
     }
 }
 
+/// An accessor's numbers, and how many an element has; or why there are none.
+type Read = Result<(Arc<[f32]>, usize), String>;
+
 /// The numbers of accessors, each accessor once.
 struct Numbers<'a> {
     document: &'a Document,
     buffers: &'a Buffers<'a>,
-    /// With how many an element has.
-    known: HashMap<usize, Result<(Arc<[f32]>, usize), String>>,
+    known: HashMap<usize, Read>,
     /// The last number of those that are times.
     ends: HashMap<usize, f64>,
     /// How many more there may be: many accessors can be of the same bytes.
@@ -231,7 +233,7 @@ impl Numbers<'_> {
         })
     }
 
-    fn of(&mut self, accessor: usize) -> Result<(Arc<[f32]>, usize), String> {
+    fn of(&mut self, accessor: usize) -> Read {
         if let Some(known) = self.known.get(&accessor) {
             return known.clone();
         }
@@ -240,7 +242,7 @@ impl Numbers<'_> {
         read
     }
 
-    fn read(&mut self, accessor: usize) -> Result<(Arc<[f32]>, usize), String> {
+    fn read(&mut self, accessor: usize) -> Read {
         let kinds = [Type::Scalar, Type::Vec2, Type::Vec3, Type::Vec4];
         let elements = accessors::read(self.document, self.buffers, accessor, &kinds)?;
         self.spend(elements.count.saturating_mul(elements.components))?;

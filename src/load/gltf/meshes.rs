@@ -161,7 +161,8 @@ impl Geometry {
         match drawn {
             Drawn::Points(count) => self.points += count,
             Drawn::Lines(count) => self.lines += count,
-            Drawn::Triangles(mut mesh, deformation, left_out) => {
+            Drawn::Triangles(read, left_out) => {
+                let (mut mesh, deformation) = *read;
                 self.not_finite += left_out;
                 if mesh.triangles.is_empty() {
                     return None;

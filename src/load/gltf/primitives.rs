@@ -37,7 +37,7 @@ const BYTES_A_VERTEX: u64 = 64;
 pub(super) enum Drawn {
     /// Triangles, perhaps none, what may change their shape, and how many were left out since a position of theirs is
     /// no number.
-    Triangles(Mesh, Deformation, usize),
+    Triangles(Box<(Mesh, Deformation)>, usize),
     /// So many points, which luch does not draw.
     Points(usize),
     /// So many line segments, which luch does not draw.
@@ -73,7 +73,7 @@ impl Reader<'_> {
         let Some(positions) = self.attribute(&Semantic::Positions, "POSITION", &[Type::Vec3], 0)?
         else {
             warnings.add(format!("{}: has no POSITION and is not drawn", self.place));
-            return Ok(Drawn::Triangles(Mesh::default(), Deformation::default(), 0));
+            return Ok(Drawn::Triangles(Box::default(), 0));
         };
         let mut triangles = match self.faces(mode, in_stream, &positions, budget, warnings)? {
             Faces::Triangles(triangles) => triangles,
@@ -107,7 +107,7 @@ impl Reader<'_> {
             morph_targets::split(&mut deformation.targets, &old_vertices);
             skins::split(&mut deformation, &old_vertices);
         }
-        Ok(Drawn::Triangles(mesh, deformation, left_out))
+        Ok(Drawn::Triangles(Box::new((mesh, deformation)), left_out))
     }
 
     /// Normals, texture coordinates and colours.
