@@ -13,4 +13,5 @@ mod load_obj;
 mod load_scene_file;
 mod models;
 mod output;
+mod refraction;
 mod study;
