@@ -230,6 +230,7 @@ fn physical(base_color: Rgb, metallic: f32) -> Material {
             roughness: 0.0,
             metallic_roughness: None,
             occlusion: Textured::uniform(1.0),
+            finish: None,
         }),
         double_sided: false,
         ..glass(1.5, false)
