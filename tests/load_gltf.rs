@@ -1,8 +1,10 @@
 //! glTF files, written by each test: what they say is what the model has, and every wrong one has its own words.
 
+mod compressed;
 mod facts;
 mod file;
 mod geometry;
+mod instances;
 mod materials;
 mod nodes;
 mod seen;

@@ -43,12 +43,12 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
         Some(path) => load::open(path, &load::Options::default()),
         None => load::scene_file::parse(FIGURE_4, name, &load::Options::default()),
     };
-    let asset = asset.map_err(Failure::usage_or_scene)?;
+    let mut asset = asset.map_err(Failure::usage_or_scene)?;
     outputs.spare(&asset.files)?;
     let settings = settings(arguments, &asset)?;
     let viewpoint = viewpoint(arguments, &settings)?;
     let (scene, choices) = asset
-        .scene(0.0, &viewpoint)
+        .take_scene(0.0, &viewpoint)
         .map_err(Failure::usage_or_scene)?;
     let load = start.elapsed();
     summary::announce(arguments, &asset, &choices);

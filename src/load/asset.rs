@@ -86,7 +86,20 @@ impl Asset {
     /// # Errors
     ///
     /// There is no camera of the wanted name, or what the file says makes no scene.
-    pub fn scene(&self, _time: f64, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
+    pub fn scene(&self, time: f64, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
+        self.clone().take_scene(time, viewpoint)
+    }
+
+    /// The same without a copy: meshes and textures go into the scene. What else is known of the file stays here.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Asset::scene`].
+    pub fn take_scene(
+        &mut self,
+        _time: f64,
+        viewpoint: &Viewpoint,
+    ) -> Result<(Scene, Choices), Error> {
         let mut choices = Choices::default();
         let placeholder = Camera::looking_at(Vec3::Z, Vec3::ZERO, Vec3::Y, 1.0);
         let mut description = SceneDescription {
@@ -97,8 +110,8 @@ impl Asset {
             ..SceneDescription::empty(placeholder)
         };
         self.models
-            .iter()
-            .for_each(|placed| placed.add_to(&mut description));
+            .iter_mut()
+            .for_each(|placed| placed.move_into(&mut description));
         description.camera = viewpoint::camera(self, viewpoint, &description, &mut choices)?;
         viewpoint::light(self, viewpoint, &mut description, &mut choices);
         description.background = viewpoint::background(self, viewpoint, &mut choices);
@@ -135,17 +148,18 @@ impl Asset {
 }
 
 impl PlacedModel {
-    /// Adds what the model's nodes place.
-    fn add_to(&self, scene: &mut SceneDescription) {
-        let model = &self.model;
+    /// Adds what the model's nodes place; its meshes and textures are gone from it then.
+    fn move_into(&mut self, scene: &mut SceneDescription) {
+        let model = &mut self.model;
         let [first_material, first_texture, first_mesh] = [
             scene.materials.len(),
             scene.textures.len(),
             scene.meshes.len(),
         ]
         .map(|length| length as u32);
-        scene.textures.extend_from_slice(&model.textures);
-        scene.meshes.extend_from_slice(&model.meshes);
+        scene.textures.append(&mut model.textures);
+        scene.meshes.append(&mut model.meshes);
+        let model = &self.model;
         scene
             .materials
             .extend(model.materials.iter().map(|material| {
