@@ -42,12 +42,12 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let outputs = Outputs::claim(arguments, name, &Interrupt::watch())?;
 
     let start = Instant::now();
-    let asset = open(arguments)?;
+    let mut asset = open(arguments)?;
     outputs.spare(&asset.files)?;
     let settings = settings(arguments, &asset)?;
     let viewpoint = viewpoint(arguments, &settings)?;
     let (scene, choices) = asset
-        .scene(arguments.animation.time(), &viewpoint)
+        .take_scene(arguments.animation.time(), &viewpoint)
         .map_err(Failure::usage_or_scene)?;
     // A picture is encoded beside the film.
     let room = asset.check_film(&scene, 2 * settings.film_bytes());

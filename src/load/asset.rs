@@ -91,34 +91,77 @@ impl Asset {
     ///
     /// There is no camera of the wanted name, or what the file says makes no scene.
     pub fn scene(&self, time: f64, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
-        let mut choices = Choices::default();
-        // What is described is a copy of what was read.
         let copy = |placed: &PlacedModel| placed.model.meshes.iter().map(Mesh::bytes).sum::<u64>();
         let copies = self.models.iter().map(copy).sum();
         let short = |problem: OutOfMemory| problem.of(&self.file, "the scene");
         self.budget.check(copies).map_err(short)?;
+        let mut described = self.described(time);
+        for (placed, places) in self.models.iter().zip(&described.places) {
+            let meshes = placed.model.meshes.iter().cloned();
+            fill(&mut described.scene.meshes, places, meshes);
+        }
+        self.seen(described, viewpoint)
+    }
+
+    /// The same without a copy: the meshes that are shown as they are go into the scene, and the asset makes no other. What
+    /// else is known of the file stays here.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Asset::scene`].
+    pub fn take_scene(
+        &mut self,
+        time: f64,
+        viewpoint: &Viewpoint,
+    ) -> Result<(Scene, Choices), Error> {
+        let mut described = self.described(time);
+        for (placed, places) in self.models.iter_mut().zip(&described.places) {
+            let meshes = placed.model.meshes.iter_mut().map(std::mem::take);
+            fill(&mut described.scene.meshes, places, meshes);
+        }
+        self.seen(described, viewpoint)
+    }
+
+    /// What stands where at a time; the meshes that models show as they are lack.
+    fn described(&self, time: f64) -> Described {
         let placeholder = Camera::looking_at(Vec3::Z, Vec3::ZERO, Vec3::Y, 1.0);
-        let mut description = SceneDescription {
+        let mut scene = SceneDescription {
             materials: self.materials.clone(),
             spheres: self.spheres.clone(),
             planes: self.planes.clone(),
             lights: self.lights.clone(),
             ..SceneDescription::empty(placeholder)
         };
+        let mut choices = Choices::default();
         let poses = self.poses(time);
-        for (placed, pose) in &poses {
-            placed.add_to(pose, &mut description, &mut choices);
+        let places = poses
+            .iter()
+            .map(|(placed, pose)| placed.add_to(pose, &mut scene, &mut choices))
+            .collect();
+        Described {
+            scene,
+            places,
+            cameras: viewpoint::cameras(&poses).collect(),
+            choices,
         }
-        description.camera =
-            viewpoint::camera(self, &poses, viewpoint, &description, &mut choices)?;
-        drop(poses);
-        viewpoint::light(self, viewpoint, &mut description, &mut choices);
-        description.background = viewpoint::background(self, viewpoint, &mut choices);
+    }
+
+    /// The scene of what stands there, with a camera, lights and a background.
+    fn seen(&self, described: Described, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
+        let Described {
+            mut scene,
+            cameras,
+            mut choices,
+            ..
+        } = described;
+        scene.camera = viewpoint::camera(self, &cameras, viewpoint, &scene, &mut choices)?;
+        viewpoint::light(self, viewpoint, &mut scene, &mut choices);
+        scene.background = viewpoint::background(self, viewpoint, &mut choices);
         let in_file = |problem| Error::Scene {
             file: self.file.clone(),
             problem,
         };
-        let scene = Scene::new_within(description, self.budget.left()).map_err(in_file)?;
+        let scene = Scene::new(scene).map_err(in_file)?;
         Ok((scene, choices))
     }
 
@@ -177,16 +220,36 @@ impl From<Model> for Asset {
     }
 }
 
+/// What stands where at a moment.
+struct Described {
+    scene: SceneDescription,
+    /// Of each mesh of each model, which of the scene's it is to be, if it is shown as it is.
+    places: Vec<Vec<Option<u32>>>,
+    cameras: Vec<PlacedCamera>,
+    choices: Choices,
+}
+
+/// Puts meshes where they lack.
+fn fill(scene: &mut [Mesh], places: &[Option<u32>], meshes: impl Iterator<Item = Mesh>) {
+    for (mesh, place) in meshes.zip(places) {
+        if let Some(place) = place.and_then(|place| scene.get_mut(place as usize)) {
+            *place = mesh;
+        }
+    }
+}
+
 impl PlacedModel {
-    /// Adds what the model's nodes place in a pose.
-    fn add_to(&self, pose: &Pose, scene: &mut SceneDescription, choices: &mut Choices) {
+    /// Adds what the model's nodes place in a pose. Of each of its meshes, which of the scene's it is to be: those are
+    /// empty yet.
+    fn add_to(
+        &self,
+        pose: &Pose,
+        scene: &mut SceneDescription,
+        choices: &mut Choices,
+    ) -> Vec<Option<u32>> {
         let model = &self.model;
-        let [first_material, first_texture, first_mesh] = [
-            scene.materials.len(),
-            scene.textures.len(),
-            scene.meshes.len(),
-        ]
-        .map(|length| length as u32);
+        let [first_material, first_texture] =
+            [scene.materials.len(), scene.textures.len()].map(|length| length as u32);
         scene.textures.extend_from_slice(&model.textures);
         scene
             .materials
@@ -222,11 +285,11 @@ impl PlacedModel {
                 .and_then(|shape| model.shapes.get(shape))
                 .map_or(&[][..], |shape| &shape.parts);
             for part in parts {
-                let (mesh, to_model) = meshes.place(posed, part);
+                let (mesh, to_model) = meshes.place(posed, part, &mut scene.meshes);
                 for to_model in node.places(to_model) {
                     scene.instances.push(Instance {
                         name: node.name.clone(),
-                        mesh: first_mesh + mesh,
+                        mesh,
                         material: self.material.unwrap_or(first_material + part.material),
                         to_world: self.to_world * to_model,
                     });
@@ -245,6 +308,6 @@ impl PlacedModel {
                 ));
             }
         }
-        scene.meshes.append(&mut meshes.meshes);
+        meshes.own
     }
 }

@@ -10,11 +10,9 @@ use std::collections::HashMap;
 #[derive(Debug)]
 pub(in crate::load) struct PosedMeshes<'p, 'a> {
     pose: &'p Pose<'a>,
-    /// Where each of the model's own went, where one is shown as it is.
-    own: Vec<Option<u32>>,
+    /// Which mesh of the scene each of the model's own is to be, where one is shown as it is.
+    pub(in crate::load) own: Vec<Option<u32>>,
     posed: HashMap<Key, u32>,
-    /// What is shown.
-    pub(in crate::load) meshes: Vec<Mesh>,
     /// Triangles that are left out, since a position of theirs is no number at this moment.
     pub(in crate::load) left_out: usize,
 }
@@ -29,17 +27,21 @@ impl<'p, 'a> PosedMeshes<'p, 'a> {
             pose,
             own: vec![None; pose.model.meshes.len()],
             posed: HashMap::new(),
-            meshes: Vec::new(),
             left_out: 0,
         }
     }
 
-    /// The mesh that a node shows as one of its parts, and where that stands in the model: a skin's joints carry it
+    /// Which of the scene's meshes a node shows as one of its parts, and where that stands in the model: a skin's joints carry it
     /// there themselves, wherever its node is (glTF 2.0, section 3.7.3.3).
-    pub(in crate::load) fn place(&mut self, node: &PosedNode<'a>, part: &Part) -> (u32, DAffine3) {
+    pub(in crate::load) fn place(
+        &mut self,
+        node: &PosedNode<'a>,
+        part: &Part,
+        scene: &mut Vec<Mesh>,
+    ) -> (u32, DAffine3) {
         let model = self.pose.model;
         let Some(deformation) = model.deformations.get(&part.mesh) else {
-            return (self.own(part.mesh), node.to_model);
+            return (self.own(part.mesh, scene), node.to_model);
         };
         let skin = node
             .node
@@ -60,25 +62,21 @@ impl<'p, 'a> PosedMeshes<'p, 'a> {
             let base = &model.meshes[part.mesh as usize];
             let (mesh, left_out) = deformation.posed(base, weights, joints.map(Vec::as_slice));
             self.left_out += left_out;
-            self.push(mesh)
+            push(mesh, scene)
         } else {
-            self.own(part.mesh)
+            self.own(part.mesh, scene)
         };
         self.posed.insert(key, index);
         (index, to_model)
     }
 
-    fn own(&mut self, mesh: u32) -> u32 {
-        if let Some(known) = self.own[mesh as usize] {
-            return known;
-        }
-        let index = self.push(self.pose.model.meshes[mesh as usize].clone());
-        self.own[mesh as usize] = Some(index);
-        index
+    fn own(&mut self, mesh: u32, scene: &mut Vec<Mesh>) -> u32 {
+        let known = &mut self.own[mesh as usize];
+        *known.get_or_insert_with(|| push(Mesh::default(), scene))
     }
+}
 
-    fn push(&mut self, mesh: Mesh) -> u32 {
-        self.meshes.push(mesh);
-        self.meshes.len() as u32 - 1
-    }
+fn push(mesh: Mesh, scene: &mut Vec<Mesh>) -> u32 {
+    scene.push(mesh);
+    scene.len() as u32 - 1
 }

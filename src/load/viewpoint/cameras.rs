@@ -13,12 +13,12 @@ use glam::DVec3;
 /// The camera that the user, the file or the framing gives, with the field of view that the user asks for.
 pub(in crate::load) fn camera(
     asset: &Asset,
-    poses: &[(&PlacedModel, Pose)],
+    cameras: &[PlacedCamera],
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
-    let camera = chosen_camera(asset, poses, viewpoint, scene, choices)?;
+    let camera = chosen_camera(asset, cameras, viewpoint, scene, choices)?;
     let asked = viewpoint
         .fov_y
         .map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
@@ -30,13 +30,13 @@ pub(in crate::load) fn camera(
 
 fn chosen_camera(
     asset: &Asset,
-    poses: &[(&PlacedModel, Pose)],
+    cameras: &[PlacedCamera],
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
     let of_file = |name: &str| {
-        camera_of_model(poses, name).map_err(|problem| Error::malformed(&asset.file, "", problem))
+        camera_of_model(cameras, name).map_err(|problem| Error::malformed(&asset.file, "", problem))
     };
     match (&viewpoint.camera, &asset.camera) {
         (CameraChoice::Given(camera), _) => Ok(*camera),
@@ -44,7 +44,7 @@ fn chosen_camera(
         (CameraChoice::OfFile, Some(CameraSource::Given(camera))) => Ok(*camera),
         (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => of_file(name),
         (CameraChoice::OfFile, None) => {
-            let first = cameras(poses).next();
+            let first = cameras.first();
             Ok(first.map(|placed| placed.camera).unwrap_or_else(|| {
                 choices.lines.push(
                     "camera: none in the file; a three-quarter view, fitted to the model".into(),
@@ -110,8 +110,7 @@ pub(in crate::load) fn cameras(
 }
 
 /// The camera that goes by a name, its own or else its node's, or that has this index.
-fn camera_of_model(poses: &[(&PlacedModel, Pose)], wanted: &str) -> Result<Camera, String> {
-    let cameras: Vec<PlacedCamera> = cameras(poses).collect();
+fn camera_of_model(cameras: &[PlacedCamera], wanted: &str) -> Result<Camera, String> {
     let names: Vec<&str> = cameras.iter().map(|placed| placed.name.as_str()).collect();
     let by_node = || cameras.iter().position(|placed| placed.node == wanted);
     let index = match choice::find("camera", wanted, &names) {
