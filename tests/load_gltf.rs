@@ -1,5 +1,6 @@
 //! glTF files, written by each test: what they say is what the model has, and every wrong one has its own words.
 
+mod bounds;
 mod facts;
 mod file;
 mod geometry;
