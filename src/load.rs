@@ -13,6 +13,7 @@ mod memory;
 mod model;
 mod options;
 mod tangents;
+mod text_bytes;
 mod viewpoint;
 mod warnings;
 

@@ -14,7 +14,7 @@ mod shapes;
 mod source;
 mod table;
 
-use super::{Asset, Budget, CameraSource, Model, Options, files, gltf, obj};
+use super::{Asset, Budget, CameraSource, Model, Options, files, gltf, obj, text_bytes};
 use crate::Error;
 use materials::Materials;
 use models::Models;
@@ -64,6 +64,21 @@ pub fn parse(text: &str, path: &Path, options: &Options) -> Result<Asset, Error>
 
 /// [`parse`] with another way to open a model.
 fn parse_with(
+    text: &str,
+    path: &Path,
+    budget: &Budget,
+    open_model: impl FnMut(&Path) -> Option<Result<Model, Error>>,
+) -> Result<Asset, Error> {
+    let taken = text_bytes::of_toml(text.as_bytes());
+    budget
+        .take(taken)
+        .map_err(|problem| problem.of(path, "its TOML"))?;
+    let asset = read(text, path, budget, open_model);
+    budget.give_back(taken);
+    asset
+}
+
+fn read(
     text: &str,
     path: &Path,
     budget: &Budget,
