@@ -17,6 +17,7 @@ mod model;
 mod options;
 mod pose;
 mod tangents;
+mod text_bytes;
 mod viewpoint;
 mod warnings;
 

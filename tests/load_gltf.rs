@@ -1,6 +1,7 @@
 //! glTF files, written by each test: what they say is what the model has, and every wrong one has its own words.
 
 mod animation;
+mod bounds;
 mod compressed;
 mod facts;
 mod file;

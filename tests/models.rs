@@ -1,15 +1,12 @@
 //! Models that nobody here wrote: each gives a picture or one line that says why not, and none a panic.
 //!
-//! They lie in the folder that `LUCH_TEST_MODELS` names, or else in `../shared/models`: real ones in `valid/` and
-//! `obj/`, broken ones in `hostile/`. The project has none of them, since their licences differ.
+//! They lie in `valid/` and `obj/` in the folder that `LUCH_TEST_MODELS` names, or else in `../shared/models`. The
+//! project has none of them, since their licences differ.
 
-use super::common::picture;
+use super::common::{models, picture};
 use luch::load;
 use luch::shade::Shading;
 use std::any::Any;
-use std::env;
-use std::fs;
-use std::io::{self, Write};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -48,7 +45,9 @@ fn real_models_give_a_picture_or_one_line() {
         64,
     );
     assert_calm(&outcomes);
-    outcomes.iter().for_each(|outcome| say(&outcome.row()));
+    outcomes
+        .iter()
+        .for_each(|outcome| models::say(&outcome.row()));
     for outcome in &outcomes {
         // A file may have nothing that luch draws, and says so; whatever it draws is seen.
         let reason = outcome.reason();
@@ -57,55 +56,17 @@ fn real_models_give_a_picture_or_one_line() {
     }
 }
 
-#[test]
-fn hostile_models_give_a_picture_or_one_line() {
-    let outcomes = tried(
-        "hostile_models_give_a_picture_or_one_line",
-        &["hostile"],
-        16,
-    );
-    assert_calm(&outcomes);
-}
-
 /// Loads and renders every model in `folders`, and tells what came of it; nothing, and a line that says so, where a
 /// folder is absent.
 fn tried(test: &str, folders: &[&str], side: u32) -> Vec<Outcome> {
-    let root = env::var_os("LUCH_TEST_MODELS").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/models"),
-        PathBuf::from,
-    );
     let mut outcomes = Vec::new();
-    for folder in folders {
-        let folder = root.join(folder);
-        let mut files = Vec::new();
-        if !folder.is_dir() {
-            let folder = folder.display();
-            say(&format!(
-                "SKIPPED, not passed: {test}: no model was tried, since {folder} is no folder; \
-                 LUCH_TEST_MODELS can name another that has it"
-            ));
-            continue;
-        }
-        add_models(&folder, &mut files);
-        files.sort();
+    for folder in folders.iter().filter_map(|name| models::folder(test, name)) {
+        let files = models::below(&folder, &["gltf", "glb", "obj"]);
         let of_folder = each(&files, side);
-        say(&summary(&folder, &of_folder));
+        models::say(&summary(&folder, &of_folder));
         outcomes.extend(of_folder);
     }
     outcomes
-}
-
-/// The models in a folder and those below it.
-fn add_models(folder: &Path, files: &mut Vec<PathBuf>) {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-    for path in entries.map(|entry| entry.path()) {
-        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-        if path.is_dir() {
-            add_models(&path, files);
-        } else if matches!(extension.as_deref(), Some("gltf" | "glb" | "obj")) {
-            files.push(path);
-        }
-    }
 }
 
 /// What becomes of each file. Each is tried by one thread alone, so that its time is its own.
@@ -204,11 +165,6 @@ fn summary(folder: &Path, outcomes: &[Outcome]) -> String {
     });
     let (shown, all, folder) = (shown.count(), outcomes.len(), folder.display());
     format!("{folder}: {shown} of {all} models give a picture{slowest}")
-}
-
-/// Past the harness, which keeps what tests that pass print: whether this one did anything must be seen.
-fn say(text: &str) {
-    let _ = writeln!(io::stderr(), "{text}");
 }
 
 /// Every file came to its end in time, and what is said of it is a line each, an error's with the name of a file.

@@ -6,6 +6,8 @@ mod assets;
 mod cli;
 mod common;
 mod golden;
+#[cfg(unix)]
+mod hostile;
 mod invariance;
 mod layers;
 mod load_gltf;

@@ -173,6 +173,21 @@ mod tests {
     use super::*;
 
     #[test]
+    fn bytes_have_letters_for_powers_of_1024() {
+        for (text, expected) in [
+            ("7", 7),
+            ("3k", 3 << 10),
+            ("500M", 500 << 20),
+            ("4G", 4 << 30),
+        ] {
+            assert_eq!(bytes(text), Ok(expected));
+        }
+        for wrong in ["", "0", "G", "-1G", "1.5G", "99999999T", "4 G", "é"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
     fn sizes_are_two_numbers_with_an_x() {
         assert_eq!(
             "640x480".parse(),

@@ -71,6 +71,13 @@ impl Budget {
         self.spent.load(Relaxed)
     }
 
+    /// Gives back what was taken.
+    pub(super) fn give_back(&self, bytes: u64) {
+        let less = |spent: u64| Some(spent.saturating_sub(bytes));
+        // It always is some.
+        let _ = self.spent.fetch_update(Relaxed, Relaxed, less);
+    }
+
     /// Gives back what was taken since `before` but for `kept` bytes: a file's own bytes and all that was made on the
     /// way from them are freed by now.
     pub(super) fn settle(&self, before: u64, kept: u64) {
@@ -105,18 +112,6 @@ impl fmt::Display for OutOfMemory {
             "takes {needs} MB of memory, {left} MB are left; make it smaller, or allow more with --max-memory"
         )
     }
-}
-
-/// What a JSON text of a glTF file comes to once it is read, in bytes: the typed document has up to a kilobyte for each
-/// object, values that luch does not know have 32 bytes each (and twice that while a list grows), texts are copied and
-/// those of data URIs decoded.
-pub(super) fn bytes_of_json(text: &[u8]) -> u64 {
-    let each = text.iter().map(|byte| match byte {
-        b'{' => 1024,
-        b',' | b'[' => 64,
-        _ => 0,
-    });
-    each.sum::<u64>() + 3 * text.len() as u64
 }
 
 /// What the vertices, triangles and pixels of a model take, in bytes, and what places them.
@@ -159,6 +154,8 @@ mod tests {
         assert_eq!(budget.take(4), Ok(()));
         budget.settle(0, 3);
         assert_eq!(budget.take(7), Ok(()));
+        budget.give_back(2);
+        assert_eq!(budget.left(), 2);
     }
 
     #[test]

@@ -38,6 +38,7 @@ mod textures;
 
 use super::{
     Budget, Facts, Model, ModelMesh, Node, Options, Part, Warnings, budget, files, tangents,
+    text_bytes,
 };
 use crate::Error;
 use find::Finder;
@@ -68,14 +69,10 @@ pub(super) fn open_within(path: &Path, options: &Options, budget: &Budget) -> Re
     Ok(model)
 }
 
-/// What each byte of an OBJ can come to, in bytes: `f 1 1 1` is a triangle of three vertices, with corners, weld and
-/// mesh.
-const MEMORY_A_BYTE: u64 = 24;
-
 fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {
     let bytes = files::read(path, budget)?;
     budget
-        .take(MEMORY_A_BYTE * bytes.len() as u64)
+        .take(text_bytes::of_obj(&bytes))
         .map_err(|problem| problem.of(path, ""))?;
     if bytes.len() > MOST_BYTES {
         return Err(Error::Unsupported {

@@ -15,7 +15,7 @@ mod source;
 mod table;
 mod transmission;
 
-use super::{Asset, Budget, CameraSource, Model, Options, animated, files, gltf, obj};
+use super::{Asset, Budget, CameraSource, Model, Options, animated, files, gltf, obj, text_bytes};
 use crate::Error;
 use materials::Materials;
 use models::Models;
@@ -66,6 +66,21 @@ pub fn parse(text: &str, path: &Path, options: &Options) -> Result<Asset, Error>
 
 /// [`parse`] with another way to open a model.
 fn parse_with(
+    text: &str,
+    path: &Path,
+    budget: &Budget,
+    open_model: impl FnMut(&Path) -> Option<Result<Model, Error>>,
+) -> Result<Asset, Error> {
+    let taken = text_bytes::of_toml(text.as_bytes());
+    budget
+        .take(taken)
+        .map_err(|problem| problem.of(path, "its TOML"))?;
+    let asset = read(text, path, budget, open_model);
+    budget.give_back(taken);
+    asset
+}
+
+fn read(
     text: &str,
     path: &Path,
     budget: &Budget,

@@ -241,3 +241,75 @@ fn a_scene_file_that_names_a_lost_model_tells_of_the_model() {
         "lost.glb: cannot open: No such file or directory (os error 2)",
     );
 }
+
+#[cfg(unix)]
+#[test]
+fn what_lies_outside_a_models_folder_is_read_for_who_means_it() {
+    let buffer: Vec<u8> = [0., 0., 0., 1., 0., 0., 0., 1., 0.]
+        .into_iter()
+        .flat_map(f32::to_le_bytes)
+        .collect();
+    let gltf = |uri: &str| {
+        let json = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+            "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+            "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],
+            "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":"URI"}]}"#;
+        json.replace("URI", uri)
+    };
+    let folder = Folder::new(&[("model.bin", &buffer)]);
+    std::fs::create_dir(folder.path("below")).expect("a writable folder");
+    let absolute = format!("file://{}", folder.path("model.bin").display());
+    for (name, uri) in [
+        ("up", "../model.bin"),
+        ("link", "link.bin"),
+        ("file", &absolute),
+    ] {
+        let model = format!("below/{name}.gltf");
+        std::fs::write(folder.path(&model), gltf(uri)).expect("a writable folder");
+    }
+    std::os::unix::fs::symlink("../model.bin", folder.path("below/link.bin")).expect("a link");
+    for (name, uri) in [("up", "../model.bin"), ("link", "link.bin")] {
+        let model = format!("below/{name}.gltf");
+        let problem = format!(
+            "{model}: buffer 0: its URI \"{uri}\" leads out of the model's folder; \
+             move the file beside the model, or use --allow-external"
+        );
+        folder.luch_fails(&["info", &model], 1, &problem);
+        folder.luch_succeeds(&["info", &model, "--allow-external"]);
+    }
+    let ran = folder.luch(&["info", "below/file.gltf"]);
+    assert!(ran.err.contains("begins with \"file:\""), "{}", ran.err);
+    folder.luch_succeeds(&["info", "below/file.gltf", "--allow-external"]);
+    // Devices stay out: they never end.
+    std::fs::write(folder.path("device.gltf"), gltf("/dev/zero")).expect("a writable folder");
+    let problem = "/dev/zero: is a device or a pipe, expected a file";
+    folder.luch_fails(&["info", "device.gltf", "--allow-external"], 1, problem);
+}
+
+#[test]
+fn a_picture_that_does_not_fit_into_the_memory_allowed_is_one_line() {
+    let folder = Folder::with_scene_and_model();
+    let render = |memory: &str| {
+        let arguments = [
+            "render",
+            "model.obj",
+            "--size",
+            "2000x2000",
+            "--max-memory",
+            memory,
+        ];
+        let ran = folder.luch(&arguments);
+        (ran.code, ran.err)
+    };
+    let (code, said) = render("100M");
+    assert_eq!(code, Some(1));
+    assert_eq!(
+        said,
+        "error: model.obj: the scene with its picture takes 161 MB of memory, 104 MB are left; \
+         make it smaller, or allow more with --max-memory\n"
+    );
+    let (code, said) = render("4 bananas");
+    assert_eq!(code, Some(1));
+    assert!(said.contains("expected a whole number of bytes above 0, as in 4G or 500M"));
+    assert_eq!(folder.names(), ["model.obj", "scene.toml"]);
+}

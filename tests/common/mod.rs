@@ -1,4 +1,5 @@
 //! What several tests share.
 
+pub(crate) mod models;
 pub(crate) mod picture;
 pub(crate) mod scenes;

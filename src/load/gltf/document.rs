@@ -4,7 +4,7 @@
 
 use super::{Budget, Options, Warnings, json};
 use crate::Error;
-use crate::load::budget::bytes_of_json;
+use crate::load::text_bytes;
 use gltf::json::Root;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -44,7 +44,7 @@ impl Document {
             rest
         });
         budget
-            .take(bytes_of_json(json))
+            .take(text_bytes::of_json(json))
             .map_err(|problem| problem.of(file, "its JSON"))?;
         let root = json::parse(file, text)?;
         check_version(file, &root)?;

@@ -131,18 +131,29 @@ impl Reader<'_> {
             let uvs = self.attribute(&Semantic::TexCoords(set), name, &[Type::Vec2], count)?;
             if let (Some(uvs), Some(place)) = (uvs, mesh.uvs.get_mut(set as usize)) {
                 *place = kept.gather(&uvs, Vec2::from_array);
+                let is_nowhere = |uv: &&mut Vec2| !uv.is_finite();
+                let nowhere = place.iter_mut().filter(is_nowhere);
+                let count = nowhere.map(|uv| *uv = Vec2::ZERO).count();
+                let problem = "texture coordinates that are no finite numbers are (0, 0)";
+                warnings.add_times(problem, count);
             }
         }
         let kinds = [Type::Vec3, Type::Vec4];
         if let Some(colors) = self.attribute(&Semantic::Colors(0), "COLOR_0", &kinds, count)? {
             let has_alpha = colors.components == 4;
             mesh.colors = kept.gather(&colors, |[r, g, b, a]| {
-                [r, g, b, if has_alpha { a } else { 1.0 }].map(|channel| {
-                    // What is no number is black: it multiplies.
-                    let channel = if channel.is_nan() { 0.0 } else { channel };
-                    channel.clamp(0.0, super::BRIGHTEST)
-                })
+                [r, g, b, if has_alpha { a } else { 1.0 }]
             });
+            let mut without = 0;
+            for channel in mesh.colors.as_flattened_mut() {
+                if channel.is_nan() {
+                    without += 1;
+                    *channel = 0.0; // It multiplies.
+                }
+                *channel = channel.clamp(0.0, super::BRIGHTEST);
+            }
+            let problem = "a channel of a vertex colour that is no number is 0";
+            warnings.add_times(problem, without);
         }
         Ok(())
     }

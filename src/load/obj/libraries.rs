@@ -4,7 +4,7 @@ use super::find::{Finder, Found};
 use super::geometry::Geometry;
 use super::mtl::{self, MtlMaterial};
 use super::text::{plain, shown};
-use crate::load::{Budget, Model, files};
+use crate::load::{Budget, Model, files, text_bytes};
 use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -149,6 +149,13 @@ fn read_library(
             return;
         }
     };
+    if let Err(problem) = budget.take(text_bytes::of_mtl(&bytes)) {
+        let path = path.display();
+        model
+            .warnings
+            .add(format!("{path}: {problem}; its materials are grey"));
+        return;
+    }
     model.files.push(path.to_owned());
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let folder = folder_of(path);
