@@ -49,9 +49,10 @@ fn real_models_give_a_picture_or_one_line() {
         .iter()
         .for_each(|outcome| models::say(&outcome.row()));
     for outcome in &outcomes {
-        // A file may have nothing that luch draws, and says so; whatever it draws is seen.
+        // A file may have nothing that luch draws, or a line that makes no sense, and says so; whatever it draws is
+        // seen.
         let reason = outcome.reason();
-        let is_accepted = reason.contains("has nothing to draw");
+        let is_accepted = reason.contains("has nothing to draw") || reason.contains(": line ");
         assert!(outcome.shows_something() || is_accepted, "{reason}");
     }
 }

@@ -62,20 +62,17 @@ impl Asked {
         asked
     }
 
-    /// One line, as in `asked: 2 honoured; approximated: mipmaps; ignored: ACME_x`; none where nothing is asked.
+    /// One line, as in `honoured: skins; approximated: mipmaps; ignored: ACME_x`; none where nothing is asked.
     pub(super) fn in_words(&self) -> Option<String> {
-        let mut parts = Vec::new();
-        if !self.honoured.is_empty() {
-            parts.push(format!("{} honoured", self.honoured.len()));
-        }
-        for (list, treatment) in [
+        let lists = [
+            (&self.honoured, "honoured"),
             (&self.approximated, "approximated"),
             (&self.ignored, "ignored"),
-        ] {
-            if !list.is_empty() {
-                parts.push(format!("{treatment}: {}", list.join(", ")));
-            }
-        }
-        (!parts.is_empty()).then(|| format!("asked: {}", parts.join("; ")))
+        ];
+        let parts = lists.iter().filter(|(list, _)| !list.is_empty());
+        let parts: Vec<String> = parts
+            .map(|(list, treatment)| format!("{treatment}: {}", list.join(", ")))
+            .collect();
+        (!parts.is_empty()).then(|| parts.join("; "))
     }
 }
