@@ -53,72 +53,95 @@ pub(super) fn beside(from: &Path, reference: &Path) -> PathBuf {
         .map_or_else(|| reference.to_owned(), |folder| folder.join(reference))
 }
 
-/// Where a file lies that a model names: below the model's own folder, unless `options` allow all.
+/// Where the files may lie that a model names: below the model's own folder, unless the user allows all.
 ///
 /// A picture of a stranger's model must not read what else lies on the disk. Links are followed first, so that one of
 /// a stranger's leads nowhere else either. Where the model's own path is a link, it is the user's, and files may lie
-/// beside the link or beside what it leads to. A file that is not there is left to whoever opens it.
+/// beside the link or beside what it leads to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Reach {
+    /// As the disk has them, without links.
+    folders: Vec<PathBuf>,
+    allows_all: bool,
+}
+
+/// What is said of a file elsewhere: the end of a sentence about what names it.
+pub(super) const LEADS_OUT: &str =
+    "leads out of the model's folder; move the file beside the model, or use --allow-external";
+
+impl Reach {
+    /// That of a model.
+    pub(super) fn of(model: &Path, options: &Options) -> Reach {
+        let beside = or_here(&folder_of(model)).canonicalize().ok();
+        let target = model.canonicalize().ok().map(folder_of);
+        Reach {
+            folders: beside.into_iter().chain(target).collect(),
+            allows_all: options.allow_external,
+        }
+    }
+
+    /// Whether what a file in `folder` names so may be read: the one place that decides.
+    ///
+    /// Where nothing is there, the words of the path decide: what lies elsewhere is not told from what does not.
+    pub(super) fn holds(&self, folder: &Path, reference: &Path) -> bool {
+        let real = || folder.join(reference).canonicalize().ok();
+        let in_words = || Some(followed(or_here(folder).canonicalize().ok()?, reference));
+        let lies_below = |path: PathBuf| self.folders.iter().any(|folder| path.starts_with(folder));
+        self.allows_all || real().or_else(in_words).is_some_and(lies_below)
+    }
+}
+
+/// A path from a folder, as its words lead.
+fn followed(folder: PathBuf, reference: &Path) -> PathBuf {
+    reference
+        .components()
+        .fold(folder, |mut path, word| match word {
+            Component::ParentDir => {
+                path.pop();
+                path
+            }
+            other => path.join(other),
+        })
+}
+
+/// Where a file lies that a model names. One that is not there is left to whoever opens it.
 ///
 /// # Errors
 ///
-/// The end of a sentence about the reference: it leads out of the folder.
+/// The end of a sentence about the reference: it leads out of the model's [`Reach`].
 pub(super) fn named_by(
     model: &Path,
     reference: &Path,
     options: &Options,
 ) -> Result<PathBuf, String> {
-    let leads_out = || {
-        let shown: String = reference.to_string_lossy().chars().take(80).collect();
-        let shown = shown.replace(|c: char| c.is_control(), "\u{fffd}");
-        format!(
-            "\"{shown}\" leads out of the model's folder; move the file beside the model, or use --allow-external"
-        )
-    };
-    if !options.allow_external && !stays_below(reference) {
-        return Err(leads_out());
-    }
-    let beside_link = beside(model, reference);
-    let target = model.canonicalize().ok();
-    let beside_target = target.as_deref().map(|target| beside(target, reference));
-    let path = match beside_target {
-        Some(path) if !beside_link.exists() && path.exists() => path,
+    let beside_link = folder_of(model);
+    let beside_target = model.canonicalize().ok().map(folder_of);
+    let is_in = |folder: &Path| folder.join(reference).exists();
+    let folder = match beside_target {
+        Some(folder) if !is_in(&beside_link) && is_in(&folder) => folder,
         _ => beside_link,
     };
-    let Ok(real) = path.canonicalize() else {
-        return Ok(path);
-    };
-    let folders = [folder_of(model).canonicalize().ok(), target.map(folder_of)];
-    let is_below = folders
-        .into_iter()
-        .flatten()
-        .any(|folder| real.starts_with(folder));
-    if is_below || options.allow_external {
-        Ok(path)
-    } else {
-        Err(leads_out())
+    if Reach::of(model, options).holds(&folder, reference) {
+        return Ok(folder.join(reference));
     }
-}
-
-/// Whether the words of a path, before any link is followed, never leave the folder that it starts in.
-fn stays_below(reference: &Path) -> bool {
-    let mut depth = 0_usize;
-    reference.components().all(|component| {
-        let next = match component {
-            Component::Normal(_) => Some(depth + 1),
-            Component::CurDir => Some(depth),
-            Component::ParentDir => depth.checked_sub(1),
-            Component::RootDir | Component::Prefix(_) => None,
-        };
-        depth = next.unwrap_or_default();
-        next.is_some()
-    })
+    let shown: String = reference.to_string_lossy().chars().take(80).collect();
+    let shown = shown.replace(|c: char| c.is_control(), "\u{fffd}");
+    Err(format!("\"{shown}\" {LEADS_OUT}"))
 }
 
 /// The folder that a file lies in.
 fn folder_of(file: impl AsRef<Path>) -> PathBuf {
-    match file.as_ref().parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
-        _ => PathBuf::from("."),
+    file.as_ref()
+        .parent()
+        .map(Path::to_owned)
+        .unwrap_or_default()
+}
+
+/// A folder, where nothing stands for the one at hand.
+pub(super) fn or_here(folder: &Path) -> &Path {
+    match folder.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => folder,
     }
 }
 
@@ -140,6 +163,7 @@ mod tests {
         }
         symlink("../out/secret", at("in/link-out")).unwrap();
         symlink("../out", at("in/folder-out")).unwrap();
+        symlink("/dev/zero", at("in/link-zero")).unwrap();
         symlink("below/own", at("in/link-within")).unwrap();
         symlink("../in/model.obj", at("out/model.obj")).unwrap();
         folder
@@ -153,26 +177,32 @@ mod tests {
     fn what_lies_below_the_folder_is_allowed_and_no_more() {
         let folder = folders();
         let model = folder.path().join("in/model.obj");
+        let absolute = folder.path().join("in/own");
+        let absolute = absolute.to_str().unwrap();
         for reference in [
             "own",
             "./own",
             "below/own",
             "below/../own",
+            "below/../../in/own",
+            absolute,
             "link-within",
             "gone",
+            "gone/../../in/gone",
         ] {
             assert!(is_allowed(&model, reference), "{reference}");
         }
-        let absolute = folder.path().join("in/own");
-        let absolute = absolute.to_str().unwrap();
         for reference in [
             "../out/secret",
+            "../out/gone",
             "below/../../out/secret",
-            "below/../../in/own",
+            "gone/../../out/gone",
             "link-out",
+            "link-zero",
             "folder-out/secret",
             "/dev/zero",
-            absolute,
+            "/gone",
+            "..",
         ] {
             assert!(!is_allowed(&model, reference), "{reference}");
         }
@@ -188,7 +218,8 @@ mod tests {
         assert_eq!(of("secret").map(real), Ok(at("out/secret")));
         assert_eq!(of("own").map(real), Ok(at("in/own")));
         assert_eq!(of("gone"), Ok(folder.path().join("out/gone")));
-        assert!(of("../in/own").is_err());
+        assert_eq!(of("../in/own").map(real), Ok(at("in/own")));
+        assert!(of("../secret").is_err());
     }
 
     #[test]

@@ -20,9 +20,12 @@
 //!   colours; of the others Blender finds nothing to draw in 9, and differs by triangles without area in 4.
 
 mod bump;
+mod colors;
+mod faces;
 mod find;
 mod geometry;
 mod glass;
+mod groups;
 mod libraries;
 mod map;
 mod materials;
@@ -30,6 +33,7 @@ mod meshes;
 mod mtl;
 mod numbers;
 mod pbr;
+mod pieces;
 mod polygon;
 mod reader;
 mod smooth;

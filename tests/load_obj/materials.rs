@@ -115,7 +115,7 @@ fn a_missing_texture_leaves_the_factor() {
         warnings(&model),
         [
             "texture \"gone.png\" is missing and not used",
-            "texture \"/dev/zero\" leads out of the model's folder; move it beside the model or use --allow-external; it is not used"
+            "texture \"/dev/zero\" leads out of the model's folder; move the file beside the model, or use --allow-external; it is not used"
         ]
     );
     let diffuse = &phong(&model.materials[0]).diffuse;

@@ -41,7 +41,7 @@ fn what_lies_outside_the_folder_is_read_only_where_that_is_allowed() {
     let model = obj::open(&path, &Options::default()).unwrap();
     assert_eq!(
         warnings(&model)[0],
-        "MTL \"../a.mtl\" leads out of the model's folder; move it beside the model or use --allow-external; its materials are grey"
+        "MTL \"../a.mtl\" leads out of the model's folder; move the file beside the model, or use --allow-external; its materials are grey"
     );
     assert_eq!(model.files, [path.as_path()]);
     let options = Options {

@@ -2,9 +2,10 @@
 //! have others read from this one.
 
 use crate::load::Options;
+use crate::load::files::{LEADS_OUT, Reach, or_here};
 use std::collections::HashMap;
 use std::ffi::OsString;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 /// Where a file lies.
 #[derive(Debug, PartialEq, Eq)]
@@ -19,19 +20,13 @@ pub(super) enum Found {
     Refused(&'static str),
 }
 
-/// What is said of a file elsewhere on the disk.
-const LEADS_OUT: &str =
-    "leads out of the model's folder; move it beside the model or use --allow-external";
-
 /// What is said of a device, a pipe or a folder.
 const NO_FILE: &str = "is no file";
 
 /// Looks for files; remembers the folders it has listed.
 #[derive(Default)]
 pub(super) struct Finder {
-    /// The folder of the model, and that of the file its path is a link to, as the disk has them.
-    roots: Vec<PathBuf>,
-    allows_external: bool,
+    reach: Reach,
     /// The names in a folder by their lower case.
     listings: HashMap<PathBuf, HashMap<String, OsString>>,
 }
@@ -39,46 +34,16 @@ pub(super) struct Finder {
 impl Finder {
     /// For the files of `model`.
     pub(super) fn new(model: &Path, options: &Options) -> Finder {
-        let here = Path::new(".");
-        let folder_of = |path: &Path| match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder.canonicalize(),
-            _ => here.canonicalize(),
-        };
-        let linked = model.canonicalize().and_then(|path| folder_of(&path));
         Finder {
-            roots: [folder_of(model), linked].into_iter().flatten().collect(),
-            allows_external: options.allow_external,
+            reach: Reach::of(model, options),
             listings: HashMap::new(),
         }
     }
 
-    /// Whether a file may be read: the one place that decides.
-    fn allows(&self, path: &Path) -> bool {
-        let lies_below = |path: PathBuf| self.roots.iter().any(|root| path.starts_with(root));
-        self.allows_external || path.canonicalize().is_ok_and(lies_below)
-    }
-
-    /// Whether the words of a path alone lead out.
-    fn leads_out(&self, folder: &Path, reference: &str) -> bool {
-        let folder = if folder.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            folder
-        };
-        let mut path = folder.canonicalize().unwrap_or_default();
-        for component in Path::new(reference).components() {
-            match component {
-                Component::ParentDir => drop(path.pop()),
-                other => path.push(other),
-            }
-        }
-        !self.roots.iter().any(|root| path.starts_with(root))
-    }
-
     /// Looks for `reference` from each of `folders`, the earlier first.
     ///
-    /// Backslashes part folders as slashes do, except before blanks, which they keep in a name. Of a path that is absolute or leads out of the model's folder only the
-    /// name is looked for, unless files elsewhere are allowed.
+    /// Backslashes part folders as slashes do, except before blanks, which they keep in a name. Of a path that leads out
+    /// of the model's folder only the name is looked for, unless files elsewhere are allowed.
     pub(super) fn find(&mut self, reference: &str, folders: &[PathBuf]) -> Found {
         let reference = reference.replace("\\ ", " ").replace('\\', "/");
         let name = reference.rsplit('/').next().unwrap_or_default();
@@ -100,19 +65,12 @@ impl Finder {
             for folder in folders {
                 // An absolute path replaces the folder.
                 let path = folder.join(&reference);
-                if path.is_file() && self.allows(&path) {
-                    return Found::AsNamed(path);
-                }
-                // Whether it is there is not said of what leads out.
-                if !self.allows_external && self.leads_out(folder, &reference) {
+                if !self.reach.holds(folder, Path::new(&reference)) {
                     refused = Some(LEADS_OUT);
+                } else if path.is_file() {
+                    return Found::AsNamed(path);
                 } else if path.exists() {
-                    let why = if self.allows(&path) {
-                        NO_FILE
-                    } else {
-                        LEADS_OUT
-                    };
-                    refused = refused.or(Some(why));
+                    refused = refused.or(Some(NO_FILE));
                 }
             }
         }
@@ -135,28 +93,25 @@ impl Finder {
 
     /// A file in a folder, whatever the capitals of its name.
     fn in_any_case(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
-        let exact = folder.join(name);
-        if exact.is_file() && self.allows(&exact) {
-            return Some(exact);
+        let is_file = |name: &Path| folder.join(name).is_file() && self.reach.holds(folder, name);
+        if is_file(Path::new(name)) {
+            return Some(folder.join(name));
         }
         let names = self
             .listings
             .entry(folder.to_owned())
             .or_insert_with(|| listing(folder));
-        let path = folder.join(names.get(&name.to_lowercase())?);
-        (path.is_file() && self.allows(&path)).then_some(path)
+        let name = Path::new(names.get(&name.to_lowercase())?);
+        is_file(name).then(|| folder.join(name))
     }
 }
 
 /// Of names that differ in capitals alone the first in order, so that the choice does not depend on the disk.
 fn listing(folder: &Path) -> HashMap<String, OsString> {
-    let here = Path::new(".");
-    let folder = if folder.as_os_str().is_empty() {
-        here
-    } else {
-        folder
-    };
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let entries = std::fs::read_dir(or_here(folder))
+        .into_iter()
+        .flatten()
+        .flatten();
     let mut all: Vec<OsString> = entries.map(|entry| entry.file_name()).collect();
     all.sort_by(|a, b| b.cmp(a));
     all.into_iter()
@@ -243,26 +198,6 @@ mod tests {
         ] {
             assert_eq!(find(&below, reference), Found::Refused(LEADS_OUT));
         }
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn a_link_is_followed_before_it_is_judged() {
-        use std::os::unix::fs::symlink;
-        let folder = folder();
-        let below = folder.path().join("maps");
-        symlink("../Brick.PNG", below.join("out.png")).unwrap();
-        symlink("Oak.png", below.join("in.png")).unwrap();
-        symlink("/dev/zero", below.join("zero.png")).unwrap();
-        assert_eq!(find(&below, "out.png"), Found::Refused(LEADS_OUT));
-        assert_eq!(find(&below, "zero.png"), Found::Refused(LEADS_OUT));
-        assert_eq!(find(&below, "in.png"), Found::AsNamed(below.join("in.png")));
-        // A user's link to a model: its files may lie beside the link or beside the model.
-        std::fs::write(below.join("model.obj"), "x").unwrap();
-        symlink("maps/model.obj", folder.path().join("link.obj")).unwrap();
-        let mut finder = Finder::new(&folder.path().join("link.obj"), &Options::default());
-        let found = finder.find("Oak.png", std::slice::from_ref(&below));
-        assert_eq!(found, Found::AsNamed(below.join("Oak.png")));
     }
 
     #[test]

@@ -1,7 +1,5 @@
 //! What an OBJ file says: vertices, faces, and which object and material they belong to.
 
-use super::reader::Reader;
-use super::text::Lines;
 use crate::load::Warnings;
 use glam::{Vec2, Vec3};
 use std::ops::Range;
@@ -9,7 +7,7 @@ use std::ops::Range;
 /// Stands for a texture coordinate or a normal that a corner does not name.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A corner of a face: indices into the lists of a [`Geometry`], in range, or [`NOWHERE`].
+/// A corner of a face: indices into the lists of a [`Geometry`], in range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Corner {
     pub(super) position: u32,
@@ -19,7 +17,7 @@ pub(super) struct Corner {
     pub(super) normal: u32,
 }
 
-/// Stands for the corners of a face that is left out.
+/// Stands for a corner that is not there.
 pub(super) const NOWHERE: Corner = Corner {
     position: NONE,
     uv: NONE,
@@ -29,7 +27,6 @@ pub(super) const NOWHERE: Corner = Corner {
 /// A polygon of three corners or more.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
-    pub(super) line: u32,
     /// Where in the list of corners the next face begins.
     pub(super) end: u32,
     /// Whether a smoothing group is on.
@@ -81,29 +78,12 @@ pub(super) struct Geometry {
     pub(super) first_dropped: Option<BadLine>,
     pub(super) points: usize,
     pub(super) lines: usize,
+    /// Parts of the format that luch lacks, each once.
+    pub(super) lacks: Vec<&'static str>,
     pub(super) warnings: Warnings,
 }
 
 impl Geometry {
-    /// Reads a file's text.
-    ///
-    /// # Errors
-    ///
-    /// The first vertex, texture coordinate or normal that makes no sense: without it the indices after it would mean
-    /// other things. A face that makes no sense is left out.
-    pub(super) fn read(text: &[u8]) -> Result<Geometry, BadLine> {
-        let mut reader = Reader::default();
-        let mut lines = Lines::new(text);
-        while let Some(line) = lines.next_line() {
-            let bad = |problem| BadLine {
-                line: line.number,
-                problem,
-            };
-            reader.statement(line.number, line.text).map_err(bad)?;
-        }
-        Ok(reader.finish())
-    }
-
     /// The corners of a face.
     pub(super) fn face(&self, face: u32) -> &[Corner] {
         self.corners.get(self.range(face)).unwrap_or_default()

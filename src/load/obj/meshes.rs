@@ -88,9 +88,6 @@ impl<'a> MeshMaker<'a> {
     fn add_face(&mut self, mesh: &mut Mesh, face: u32, has_normals: bool) -> usize {
         let geometry = self.geometry;
         let corners = geometry.face(face);
-        if corners.first() == Some(&NOWHERE) {
-            return 0;
-        }
         let polygon = corners
             .iter()
             .map(|&corner| position(geometry, corner).as_dvec3());

@@ -54,7 +54,7 @@ pub(super) struct MtlMaterial {
 /// The materials of a text; `file` is its name, for warnings.
 pub(super) fn read(text: &[u8], file: &str, warnings: &mut Warnings) -> Vec<MtlMaterial> {
     let mut materials: Vec<MtlMaterial> = Vec::new();
-    let mut lines = Lines::new(text);
+    let mut lines = Lines::new(text, 0);
     while let Some(line) = lines.next_line() {
         let mut words = Words::of(line.text);
         let Some(keyword) = words.next() else {

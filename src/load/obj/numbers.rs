@@ -26,18 +26,40 @@ pub(super) fn numbers<const N: usize>(
     Ok((numbers, count))
 }
 
+/// Digits after these do not count: no file has so many vertices.
+const BEYOND_ALL: u64 = 1 << 40;
+
 /// What a number of a face's corner names.
-pub(super) enum Index {
+pub(super) enum Index<'a> {
     /// Nothing: the number is left out.
     None,
-    /// The one at this place, counted from 0. It may come later in the file.
+    /// The one at this place, counted from 0.
     At(u32),
-    /// One that cannot be: said in words.
-    Nowhere(String),
+    /// One that is not there.
+    Nowhere(Nowhere<'a>),
 }
 
-/// An index of what counts from 1, or backwards from the latest where it is negative.
-pub(super) fn index(digits: &[u8], kind: &str, count: usize) -> Result<Index, String> {
+/// An index of what is not there.
+pub(super) struct Nowhere<'a> {
+    digits: &'a [u8],
+    is_zero: bool,
+    /// Of how many.
+    count: usize,
+}
+
+impl Nowhere<'_> {
+    /// In words, of a `kind` of thing.
+    pub(super) fn of(&self, kind: &str) -> String {
+        if self.is_zero {
+            return format!("face names {kind} 0, indices start at 1");
+        }
+        let (digits, count) = (shown(self.digits), self.count);
+        format!("face names {kind} {digits}, there are {count}")
+    }
+}
+
+/// An index of one of `all` that counts from 1, or backwards from the latest of those `here` where it is negative.
+pub(super) fn index(digits: &[u8], here: usize, all: usize) -> Result<Index<'_>, String> {
     let (is_negative, magnitude) = match digits {
         [b'-', rest @ ..] => (true, rest),
         [b'+', rest @ ..] => (false, rest),
@@ -53,22 +75,21 @@ pub(super) fn index(digits: &[u8], kind: &str, count: usize) -> Result<Index, St
         if digit > 9 {
             return Err(no_index());
         }
-        value = value.saturating_mul(10).saturating_add(u64::from(digit));
-    }
-    let index = match (value, is_negative) {
-        (0, _) => {
-            let problem = format!("face names {kind} 0, indices start at 1");
-            return Ok(Index::Nowhere(problem));
+        if value < BEYOND_ALL {
+            value = value * 10 + u64::from(digit);
         }
-        (_, true) => (count as u64).checked_sub(value),
-        (_, false) => Some(value - 1),
+    }
+    let index = if is_negative {
+        (here as u64).checked_sub(value)
+    } else {
+        value.checked_sub(1)
     };
     Ok(match index.and_then(|index| u32::try_from(index).ok()) {
-        Some(index) if index != NONE => Index::At(index),
-        _ => Index::Nowhere(no_such(kind, shown(digits), count)),
+        Some(index) if value > 0 && (index as usize) < all && index != NONE => Index::At(index),
+        _ => Index::Nowhere(Nowhere {
+            digits,
+            is_zero: value == 0,
+            count: if is_negative { here } else { all },
+        }),
     })
-}
-
-pub(super) fn no_such(kind: &str, index: impl std::fmt::Display, count: usize) -> String {
-    format!("face names {kind} {index}, there are {count}")
 }

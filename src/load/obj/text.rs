@@ -39,10 +39,11 @@ pub(super) struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn new(text: &'a [u8]) -> Lines<'a> {
+    /// Those of a text that has `before` lines before it.
+    pub(super) fn new(text: &'a [u8], before: u32) -> Lines<'a> {
         Lines {
             rest: text,
-            number: 0,
+            number: before,
             joined: Vec::new(),
         }
     }
@@ -72,7 +73,18 @@ impl<'a> Lines<'a> {
         Some(Line { number, text })
     }
 
-    fn next_raw(&mut self) -> Option<&'a [u8]> {
+    /// How many lines there were, joined ones each.
+    pub(super) fn number(&self) -> u32 {
+        self.number
+    }
+
+    /// What follows the latest line.
+    pub(super) fn rest(&self) -> &'a [u8] {
+        self.rest
+    }
+
+    /// The next line as it is.
+    pub(super) fn next_raw(&mut self) -> Option<&'a [u8]> {
         if self.rest.is_empty() {
             return None;
         }
@@ -89,7 +101,7 @@ impl<'a> Lines<'a> {
 }
 
 /// What stands before a backslash at the end. A comment's backslash joins nothing: it is likelier a path's.
-fn continued(line: &[u8]) -> Option<&[u8]> {
+pub(super) fn continued(line: &[u8]) -> Option<&[u8]> {
     let before = line.trim_ascii_end().strip_suffix(b"\\")?;
     (!before.trim_ascii_start().starts_with(b"#")).then_some(before)
 }
@@ -163,7 +175,7 @@ mod tests {
     use super::*;
 
     fn lines(text: &[u8]) -> Vec<(u32, String)> {
-        let mut lines = Lines::new(text);
+        let mut lines = Lines::new(text, 0);
         let mut found = Vec::new();
         while let Some(line) = lines.next_line() {
             found.push((line.number, name(line.text)));
