@@ -233,6 +233,20 @@ impl Material {
         self.transmits()?.volume.as_ref()
     }
 
+    /// Its clear coat, if it has one.
+    pub fn clearcoat(&self) -> Option<&Clearcoat> {
+        match &self.model {
+            Model::MetallicRoughness(m) => m.finish.as_ref()?.clearcoat.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The normal map whose texture coordinates say along what a mesh's tangents are: the surface's, or its coat's.
+    pub fn map_for_tangents(&self) -> Option<&NormalMap> {
+        let of_coat = || self.clearcoat()?.normal_map.as_ref();
+        self.normal_map.as_ref().or_else(of_coat)
+    }
+
     /// What keeps ambient light away, where the model of the material has such a thing.
     pub fn occlusion(&self) -> Option<&Textured<f32>> {
         match &self.model {

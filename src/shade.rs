@@ -15,7 +15,7 @@ pub mod refraction;
 pub mod sheen;
 pub mod specular_glossiness;
 
-pub use layers::Layers;
+pub use layers::{Coat, Layers};
 
 use crate::color::Rgb;
 use glam::Vec3;

@@ -22,13 +22,13 @@ use crate::geometry::Hit;
 use crate::light::{Illumination, Lamp};
 use crate::ray::Ray;
 use crate::scene::{Place, Recent, Scene, Shown};
-use crate::shade::{Shading, flat, mirror};
+use crate::shade::{Reflectance, Shading, flat, lambert, mirror};
 use batch::{Arrivals, Paths, Promised, ShadowRays, ray_to};
 use glam::Vec3;
 use lanes::{Shone, WIDTH};
 use std::mem::{swap, take};
 use std::time::{Duration, Instant};
-use transparent::transmitted;
+use transparent::ThroughLayers;
 
 /// The most transparent layers a ray goes through. So many boundaries of bodies, too, total reflections inside included:
 /// of those no ray splits. Mirror bounces are counted by themselves ([`Rules::max_depth`]): few of them are enough, while
@@ -77,6 +77,7 @@ pub struct Tracer<'a> {
     arrivals: Arrivals,
     shadow_rays: [ShadowRays; 2],
     occluded: Vec<bool>,
+    through_layers: ThroughLayers<'a>,
     recent: Recent,
 }
 
@@ -96,6 +97,7 @@ impl<'a> Tracer<'a> {
             arrivals: Arrivals::new(scene),
             shadow_rays: Default::default(),
             occluded: Vec::new(),
+            through_layers: ThroughLayers::default(),
             recent: Recent::default(),
         }
     }
@@ -124,6 +126,10 @@ impl<'a> Tracer<'a> {
             for &index in &arrivals.onward {
                 self.reflect(&arrivals, index);
                 self.pass_through(&arrivals.list[index]);
+            }
+            for &(index, coat) in &arrivals.coats {
+                let energy = arrivals.list[index].weight * coat.mirrored;
+                self.mirror_about(&arrivals, index, coat.normal, energy);
             }
             for (index, through) in &arrivals.through {
                 self.refract(&arrivals, *index, through);
@@ -175,8 +181,8 @@ impl<'a> Tracer<'a> {
             if let Some(hit) = &self.hits[path] {
                 let (ray, place) = (&self.paths.rays[path], self.arrivals.place(index));
                 let surface = self.scene.look(ray, hit, place, &mut self.recent);
-                let refracts = self.rules.shading != Shading::Flat;
-                self.arrivals.know(index, &surface, refracts);
+                let whole = self.rules.shading != Shading::Flat;
+                self.arrivals.know(index, &surface, whole);
             }
         }
     }
@@ -217,6 +223,9 @@ impl<'a> Tracer<'a> {
             (Some(position), _) => self.promise_from(lamp, position, arrivals),
             (None, Some(light)) => self.promise_along(&light, arrivals),
             (None, None) => {}
+        }
+        for (index, through) in &arrivals.from_behind {
+            self.promise_behind(lamp, arrivals, *index, *through);
         }
         // Apart: rays that share their origin are searched faster among themselves.
         self.add_unless_occluded(0, samples);
@@ -276,6 +285,26 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// The shadow ray of a light that stands behind a surface which lets diffuse light `through`.
+    fn promise_behind(&mut self, lamp: &Lamp, arrivals: &Arrivals, index: usize, through: Rgb) {
+        let (arrival, place) = (&arrivals.list[index], arrivals.place(index));
+        let Some(light) = lamp.illuminate(place.point.position) else {
+            return;
+        };
+        let (n, l) = (-place.normal, light.to_light);
+        if n.dot(l) > 0.0 && -place.point.normal.dot(l) > 0.0 {
+            let surface = Reflectance {
+                diffuse: through,
+                ..Reflectance::BLACK
+            };
+            let promised = Promised {
+                sample: arrival.sample,
+                light: arrival.weight * lambert::reflected(&surface, n, l, light.irradiance),
+            };
+            self.shadow_rays[1].push(ray_to(&light, &place.point), promised);
+        }
+    }
+
     /// Adds what shadow rays promise where nothing stands in their way.
     #[inline(never)]
     fn add_unless_occluded(&mut self, kind: usize, samples: &mut [Sample]) {
@@ -289,23 +318,35 @@ impl<'a> Tracer<'a> {
             .occluded_all(&shadow_rays.rays, &mut self.occluded);
         self.statistics.search += since(start);
         self.statistics.shadow_rays += shadow_rays.rays.len() as u64;
-        let transparent = self.accel.has_transparent();
-        for ((promised, ray), &occluded) in shadow_rays
-            .light
-            .iter()
-            .zip(&shadow_rays.rays)
-            .zip(&self.occluded)
-        {
-            if occluded {
-                continue;
+        if self.accel.has_transparent() {
+            self.add_through_layers(kind, samples);
+            return;
+        }
+        for (promised, &occluded) in shadow_rays.light.iter().zip(&self.occluded) {
+            if !occluded {
+                samples[promised.sample as usize].color += promised.light;
             }
-            let mut light = promised.light;
-            if transparent {
-                let (share, lost) = transmitted(self.scene, |ray| self.accel.intersect(ray), ray);
-                self.statistics.lost_in_layers += u64::from(lost);
-                light = light * share;
+        }
+        shadow_rays.clear();
+    }
+
+    /// Adds what transparent things leave of the light of shadow rays that nothing opaque stops.
+    #[inline(never)]
+    fn add_through_layers(&mut self, kind: usize, samples: &mut [Sample]) {
+        let (accel, watched) = (self.accel, self.watched);
+        let (shadow_rays, layers) = (&mut self.shadow_rays[kind], &mut self.through_layers);
+        let statistics = &mut self.statistics;
+        let search = |rays: &[Ray], hits: &mut Vec<Option<Hit>>| {
+            let start = watched.then(Instant::now);
+            accel.intersect_all(rays, hits);
+            statistics.search += since(start);
+        };
+        let lost = layers.follow(self.scene, search, &shadow_rays.rays, &self.occluded);
+        statistics.lost_in_layers += lost;
+        for (promised, &share) in shadow_rays.light.iter().zip(&layers.shares) {
+            if share != Rgb::BLACK {
+                samples[promised.sample as usize].color += promised.light * share;
             }
-            samples[promised.sample as usize].color += light;
         }
         shadow_rays.clear();
     }

@@ -1,6 +1,6 @@
 //! What glTF's extensions add to a metallic-roughness surface.
 
-use super::Textured;
+use super::{NormalMap, Textured};
 use crate::color::Rgb;
 use crate::texture::TextureUse;
 
@@ -34,6 +34,8 @@ pub struct Clearcoat {
     pub weight: Textured<f32>,
     /// Perceptual roughness, 0..1; a texture's green multiplies it.
     pub roughness: Textured<f32>,
+    /// Bends its normals; those of what lies below it, bent or not, are no matter to it.
+    pub normal_map: Option<NormalMap>,
 }
 
 /// Velvet's light at grazing angles (KHR_materials_sheen).
@@ -91,6 +93,8 @@ impl Finish {
             self.specular_color.texture.as_ref(),
             coat.and_then(|c| c.weight.texture.as_ref()),
             coat.and_then(|c| c.roughness.texture.as_ref()),
+            coat.and_then(|c| c.normal_map.as_ref())
+                .map(|map| &map.texture),
             sheen.and_then(|s| s.color.texture.as_ref()),
             sheen.and_then(|s| s.roughness.texture.as_ref()),
             film.and_then(|f| f.strength.texture.as_ref()),
@@ -104,9 +108,15 @@ impl Finish {
 
     /// Every use of a texture, to be changed.
     pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut TextureUse> {
-        let [weight, coat_roughness] = self.clearcoat.as_mut().map_or([None, None], |c| {
-            [c.weight.texture.as_mut(), c.roughness.texture.as_mut()]
-        });
+        let [weight, coat_roughness, coat_normal] =
+            self.clearcoat.as_mut().map_or([None, None, None], |c| {
+                let normal = c.normal_map.as_mut().map(|map| &mut map.texture);
+                [
+                    c.weight.texture.as_mut(),
+                    c.roughness.texture.as_mut(),
+                    normal,
+                ]
+            });
         let [sheen, sheen_roughness] = self.sheen.as_mut().map_or([None, None], |s| {
             [s.color.texture.as_mut(), s.roughness.texture.as_mut()]
         });
@@ -122,6 +132,7 @@ impl Finish {
             self.specular_color.texture.as_mut(),
             weight,
             coat_roughness,
+            coat_normal,
             sheen,
             sheen_roughness,
             strength,
@@ -150,6 +161,8 @@ mod tests {
                 transform,
             })
         };
+        let scale = 1.0;
+        let normal_map = used().map(|texture| NormalMap { texture, scale });
         let mut number = || Textured {
             factor: 1.0,
             texture: used(),
@@ -174,6 +187,7 @@ mod tests {
             clearcoat: Some(Clearcoat {
                 weight,
                 roughness: coat,
+                normal_map,
             }),
             sheen: Some(Sheen {
                 color: color(),
@@ -193,7 +207,7 @@ mod tests {
         };
         let mut seen: Vec<u32> = finish.textures().map(|used| used.texture).collect();
         seen.sort_unstable();
-        assert_eq!(seen, (1..=11).collect::<Vec<_>>());
+        assert_eq!(seen, (1..=12).collect::<Vec<_>>());
         finish.textures_mut().for_each(|used| used.texture += 100);
         assert!(finish.textures().all(|used| used.texture > 100));
     }

@@ -1,7 +1,7 @@
 //! What a material is like at one point: every texture looked up.
 
 use super::Scene;
-use super::microfacets::Seen;
+use super::microfacets::{Facing, Seen};
 use super::mix::Vertex;
 use crate::color::Rgb;
 use crate::material::{Alpha, AlphaChannel, AlphaMode, Material, Model, NormalMap, Textured};
@@ -50,6 +50,7 @@ impl Scene {
         material: &Material,
         vertex: &Vertex,
         cos_view: f32,
+        coat: Option<Facing>,
     ) -> Reflectance {
         let [r, g, b, _] = vertex.color;
         let tint = Rgb::new(r, g, b);
@@ -58,6 +59,7 @@ impl Scene {
             vertex,
             tint,
             cos_view,
+            coat,
             emission,
         };
         match &material.model {

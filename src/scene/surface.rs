@@ -1,9 +1,11 @@
 //! From a hit to the surface there.
 
+use super::microfacets::Facing;
 use super::mix::{Mix, NEUTRAL};
 use super::{InstanceSpace, Primitive, Recent, Scene, Through};
+use crate::color::Rgb;
 use crate::geometry::{Hit, SurfacePoint, Triangle};
-use crate::material::{Model, Phong};
+use crate::material::{Model, NormalMap, Phong};
 use crate::mesh::normal_matrix;
 use crate::ray::Ray;
 use crate::shade::Reflectance;
@@ -22,6 +24,8 @@ pub struct Surface {
     pub reflectance: Reflectance,
     /// What goes through, where something does.
     pub through: Option<Through>,
+    /// The share of diffuse light that comes through from behind.
+    pub from_behind: Rgb,
     /// The share of the ray that ends here; 0 where the surface is not there for this ray.
     pub coverage: f32,
 }
@@ -156,8 +160,10 @@ impl Scene {
         };
         let material = self.material(index);
         let vertex = on.as_ref().map_or(NEUTRAL, |(_, mix)| mix.vertex());
-        let mut normal = place.normal;
-        if let (Some(map), Some((instance, mix))) = (&material.normal_map, &on) {
+        let bent = |map: &Option<NormalMap>| {
+            let (Some(map), Some((instance, mix))) = (map, &on) else {
+                return place.normal;
+            };
             let side = if place.front { 1.0 } else { -1.0 };
             let of_front = match &instance.space {
                 None => mix.normal(place.point.normal * side),
@@ -165,8 +171,15 @@ impl Scene {
             };
             let tangent = mix.tangent(of_front, instance);
             let bent = self.mapped_normal(map, of_front, tangent, &vertex);
-            normal = turned_toward(bent * side, ray.direction);
-        }
+            turned_toward(bent * side, ray.direction)
+        };
+        let cosine = |normal: Vec3| normal.dot(-ray.direction).max(0.0);
+        let normal = bent(&material.normal_map);
+        let coat = material.clearcoat().map(|coat| bent(&coat.normal_map));
+        let coat = coat.filter(|&coat| coat != normal).map(|normal| Facing {
+            normal,
+            cos_view: cosine(normal),
+        });
         // A ray in a body has to find the way out.
         let is_there = place.front || material.double_sided || material.volume().is_some();
         let coverage = if is_there {
@@ -174,8 +187,8 @@ impl Scene {
         } else {
             0.0
         };
-        let cos_view = normal.dot(-ray.direction).max(0.0);
-        let mut reflectance = self.reflectance(material, &vertex, cos_view);
+        let cos_view = cosine(normal);
+        let mut reflectance = self.reflectance(material, &vertex, cos_view, coat);
         if let (
             Model::Phong(Phong {
                 checker: Some(checker),
@@ -203,6 +216,7 @@ impl Scene {
             lit: !matches!(material.model, Model::Unlit { .. }),
             reflectance,
             through,
+            from_behind: self.from_behind(&material.model, &vertex),
             coverage,
         }
     }

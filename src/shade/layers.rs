@@ -14,6 +14,25 @@ pub struct Layers {
     pub coat_specular: f32,
     /// The exponent of the coat's highlight.
     pub coat_shininess: f32,
+    /// The coat's mirror, where it faces another way than the surface; zero where the surface's has it in it.
+    pub coat: Coat,
+}
+
+/// A clear coat as a mirror of its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coat {
+    /// The unit normal, turned toward the viewer; zero where it is the surface's.
+    pub normal: Vec3,
+    /// The share of light that it mirrors.
+    pub mirrored: f32,
+}
+
+impl Coat {
+    /// One that faces where the surface does.
+    pub const ALIKE: Coat = Coat {
+        normal: Vec3::ZERO,
+        mirrored: 0.0,
+    };
 }
 
 impl Layers {
@@ -25,9 +44,19 @@ impl Layers {
         },
         coat_specular: 0.0,
         coat_shininess: 0.0,
+        coat: Coat::ALIKE,
     };
 
-    fn coat(&self) -> Reflectance {
+    /// The coat, where it faces another way than the surface.
+    pub fn coat(&self) -> Option<Coat> {
+        (self.coat.normal != Vec3::ZERO).then_some(self.coat)
+    }
+
+    fn coat_normal(&self, of_surface: Vec3) -> Vec3 {
+        self.coat().map_or(of_surface, |coat| coat.normal)
+    }
+
+    fn highlight(&self) -> Reflectance {
         Reflectance {
             specular: Rgb::grey(self.coat_specular),
             shininess: self.coat_shininess,
@@ -38,13 +67,15 @@ impl Layers {
     /// What the layers send back of one light, the coat's highlight being Blinn's.
     #[inline(never)]
     pub(super) fn blinn_phong(&self, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
-        blinn_phong::reflected(&self.coat(), n, l, v, e) + sheen::reflected(&self.sheen, n, l, v, e)
+        let of_coat = blinn_phong::reflected(&self.highlight(), self.coat_normal(n), l, v, e);
+        of_coat + sheen::reflected(&self.sheen, n, l, v, e)
     }
 
     /// The same, the coat's highlight being Phong's.
     #[inline(never)]
     pub(super) fn phong(&self, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
-        phong::reflected(&self.coat(), n, l, v, e) + sheen::reflected(&self.sheen, n, l, v, e)
+        let of_coat = phong::reflected(&self.highlight(), self.coat_normal(n), l, v, e);
+        of_coat + sheen::reflected(&self.sheen, n, l, v, e)
     }
 }
 
@@ -62,6 +93,10 @@ impl Reflectance {
                     ..layers.sheen
                 },
                 coat_specular: layers.coat_specular * share,
+                coat: Coat {
+                    mirrored: layers.coat.mirrored * share,
+                    ..layers.coat
+                },
                 ..layers
             }),
             ..*self

@@ -20,8 +20,8 @@ use crate::color::Rgb;
 pub struct Parameters {
     /// `k_d`.
     pub diffuse: Rgb,
-    /// The share of diffuse light from behind that comes through. Only the constant ambient light is let through: a
-    /// lamp behind the surface does not reach the side that is seen.
+    /// The share of the constant ambient light behind the surface that comes through; lamps there are the tracer's
+    /// affair.
     pub through: Rgb,
     /// What is reflected head-on.
     pub f0: Rgb,

@@ -6,7 +6,7 @@ use crate::geometry::{Hit, SurfacePoint, Triangle};
 use crate::light::Illumination;
 use crate::ray::{AT_LIGHT, Ray};
 use crate::scene::{Place, Recent, Scene, Surface, Through};
-use crate::shade::Reflectance;
+use crate::shade::{Coat, Reflectance};
 use glam::Vec3;
 
 /// What a ray carries to its sample.
@@ -93,6 +93,10 @@ pub(super) struct Arrivals {
     pub(super) onward: Vec<usize>,
     /// Which let light through, and what becomes of it.
     pub(super) through: Vec<(usize, Through)>,
+    /// Which have a clear coat that faces another way, and that coat.
+    pub(super) coats: Vec<(usize, Coat)>,
+    /// Which let diffuse light of lamps behind them through, and how much.
+    pub(super) from_behind: Vec<(usize, Rgb)>,
     /// Of every material, where that is the same everywhere, and then what was looked up.
     pub(super) reflectances: Vec<Reflectance>,
     materials: usize,
@@ -110,6 +114,8 @@ impl Arrivals {
             unknown: Vec::new(),
             onward: Vec::new(),
             through: Vec::new(),
+            coats: Vec::new(),
+            from_behind: Vec::new(),
             reflectances: (0..materials as u32).map(plain).collect(),
             materials,
         }
@@ -121,6 +127,8 @@ impl Arrivals {
         self.unknown.clear();
         self.onward.clear();
         self.through.clear();
+        self.coats.clear();
+        self.from_behind.clear();
         self.reflectances.truncate(self.materials);
     }
 
@@ -190,14 +198,14 @@ impl Arrivals {
         }
     }
 
-    /// Takes note of what was seen at an arrival, and of what goes through it if light `refracts`.
-    pub(super) fn know(&mut self, index: usize, surface: &Surface, refracts: bool) {
+    /// Takes note of what was seen at an arrival, and of what light does there beside its shading if `whole`.
+    pub(super) fn know(&mut self, index: usize, surface: &Surface, whole: bool) {
         let arrival = &mut self.list[index];
         arrival.coverage = surface.coverage;
         arrival.weight *= surface.coverage;
         arrival.reflectance = self.reflectances.len() as u32;
         self.reflectances.push(match surface.through {
-            Some(through) if refracts => {
+            Some(through) if whole => {
                 self.through.push((index, through));
                 through.rest
             }
@@ -205,6 +213,13 @@ impl Arrivals {
         });
         // No light stands before a surface without a normal.
         let lit = surface.lit && surface.coverage > 0.0;
+        if whole && lit {
+            let coat = surface.reflectance.layers.and_then(|layers| layers.coat());
+            self.coats.extend(coat.map(|coat| (index, coat)));
+            if surface.from_behind != Rgb::BLACK {
+                self.from_behind.push((index, surface.from_behind));
+            }
+        }
         let normal = if lit { surface.normal } else { Vec3::ZERO };
         self.places[index / WIDTH].set_normal(index % WIDTH, normal);
     }

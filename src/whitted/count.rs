@@ -2,9 +2,11 @@
 //! one, so that who does not want to know pays nothing.
 
 use super::Tracer;
-use super::transparent::transmitted;
+use super::transparent::ThroughLayers;
 use crate::accel::Tests;
+use crate::geometry::Hit;
 use crate::ray::Ray;
+use std::slice::from_ref;
 
 /// What all rays of some samples were tested against.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,6 +44,7 @@ impl Tracer<'_> {
         };
         let (scene, accel) = (self.scene, self.accel);
         let shadow_rays = &self.shadow_rays[kind];
+        let mut layers = ThroughLayers::default();
         for (ray, promised) in shadow_rays.rays.iter().zip(&shadow_rays.light) {
             let Some(count) = counts.get_mut(promised.sample as usize) else {
                 continue;
@@ -49,12 +52,15 @@ impl Tracer<'_> {
             let (occluded, tests) = accel.occluded_counted(ray);
             count.add(tests);
             if !occluded && accel.has_transparent() {
-                let search = |ray: &Ray| {
-                    let (hit, tests) = accel.intersect_counted(ray);
-                    count.add(tests);
-                    hit
+                let search = |rays: &[Ray], hits: &mut Vec<Option<Hit>>| {
+                    hits.clear();
+                    hits.extend(rays.iter().map(|ray| {
+                        let (hit, tests) = accel.intersect_counted(ray);
+                        count.add(tests);
+                        hit
+                    }));
                 };
-                transmitted(scene, search, ray);
+                layers.follow(scene, search, from_ref(ray), &[false]);
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::color::Rgb;
 use crate::ray::Ray;
 use crate::scene::Place;
 use crate::shade::{Shading, mirror};
+use glam::Vec3;
 
 impl Tracer<'_> {
     /// Sends on the mirror ray, as long as it still matters.
@@ -19,6 +20,18 @@ impl Tracer<'_> {
 
     /// Sends on a mirror ray of this energy, as long as it still matters.
     pub(super) fn mirror(&mut self, arrivals: &Arrivals, index: usize, energy: Rgb) {
+        let Place { normal, .. } = arrivals.place(index);
+        self.mirror_about(arrivals, index, normal, energy);
+    }
+
+    /// The same about a normal that is not the surface's own.
+    pub(super) fn mirror_about(
+        &mut self,
+        arrivals: &Arrivals,
+        index: usize,
+        normal: Vec3,
+        energy: Rgb,
+    ) {
         let path = self.paths.paths[arrivals.list[index].path as usize];
         let most = self.rules.max_depth.min(u16::MAX.into());
         if !mirror::matters(energy) || u32::from(path.bounces) >= most {
@@ -30,13 +43,14 @@ impl Tracer<'_> {
             direct: false,
             ..path
         };
-        self.further.push(self.mirror_ray(arrivals, index), path);
+        let ray = self.mirror_ray(arrivals, index, normal);
+        self.further.push(ray, path);
         self.statistics.mirror_rays += 1;
     }
 
-    /// The mirror ray of an arrival.
-    pub(super) fn mirror_ray(&self, arrivals: &Arrivals, index: usize) -> Ray {
-        let Place { point, normal, .. } = arrivals.place(index);
+    /// The mirror ray of an arrival about a normal of its.
+    pub(super) fn mirror_ray(&self, arrivals: &Arrivals, index: usize, normal: Vec3) -> Ray {
+        let Place { point, .. } = arrivals.place(index);
         let path = arrivals.list[index].path as usize;
         let d = self.paths.rays[path].direction;
         let r = mirror::direction(d, normal);

@@ -34,7 +34,8 @@ impl Tracer<'_> {
         let out = matches!(through.way, Way::Out { .. });
         if out && passed == Rgb::BLACK {
             let path = self.paths.paths[arrival.path as usize];
-            let (ray, energy) = (self.mirror_ray(arrivals, index), mirrored);
+            let Place { normal, .. } = arrivals.place(index);
+            let (ray, energy) = (self.mirror_ray(arrivals, index, normal), mirrored);
             self.go_on(ray, Path { energy, ..path });
             return;
         }

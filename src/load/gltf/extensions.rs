@@ -33,11 +33,11 @@ const KNOWN: &[(&str, Treatment)] = &[
     ),
     (
         materials_clearcoat::NAME,
-        Treatment::Approximated("a second highlight and mirror along the surface's own normal"),
+        Treatment::Approximated("a second highlight and a second sharp mirror"),
     ),
     (
         materials_diffuse_transmission::NAME,
-        Treatment::Approximated("ambient light comes through, that of lamps does not"),
+        Treatment::Approximated("light from behind comes through a sheet without thickness"),
     ),
     (
         materials_dispersion::NAME,

@@ -7,16 +7,16 @@
 //! | --- | --- | --- |
 //! | KHR_materials_emissive_strength | emission above 1 | that |
 //! | KHR_materials_unlit | a colour that light does not change | that |
-//! | KHR_materials_ior | `F0 = ((n - 1) / (n + 1))^2` for what is not metal; `n = 0` is infinite | that; what is mirrored above 4 % is taken from diffuse light; rays bend by it |
+//! | KHR_materials_ior | `F0 = ((n - 1) / (n + 1))^2` for what is not metal; `n = 0` is infinite | that; what is mirrored above 4 % is taken from diffuse light, and all that is mirrored from what goes through; rays bend by it |
 //! | KHR_materials_specular | a factor for `F0` and `F90` and a colour for `F0` of what is not metal | that |
 //! | KHR_materials_transmission | light goes through, spread by roughness, tinted by the base colour | a ray goes on, sharp however rough the surface is |
 //! | KHR_materials_volume | bodies bend light and swallow it on its way | that where `thicknessFactor` is above 0; rays measure the way, so that the texture of thickness is not read |
 //! | KHR_materials_dispersion | colours bend unlike | three rays, for red, green and blue |
-//! | KHR_materials_clearcoat | a second, dielectric lobe over all the others, with its own roughness and normal | a second highlight and mirror of `F0 = 0.04`, `weight F` of the light, taken from all below it; along the surface's own normal, so that its normal texture is not read |
+//! | KHR_materials_clearcoat | a second, dielectric lobe over all the others, with its own roughness and normal | a second highlight and mirror of `F0 = 0.04`, `weight F` of the light, taken from all below it; both along the coat's own normal, a second mirror ray where that is not the base's |
 //! | KHR_materials_sheen | the "Charlie" lobe of fibres, what it sends back taken from below | that, each lamp by the lobe and ambient light by its integral |
 //! | KHR_materials_iridescence | thin-film interference instead of `F`, at each half vector | that, at the angle of the viewer, for dielectric and metal mixed |
 //! | KHR_materials_anisotropy | a lobe that is longer along a direction | a round one, as high: the geometric mean of both `alpha` |
-//! | KHR_materials_diffuse_transmission | diffuse light from behind | ambient light comes through, that of lamps does not; what goes through is taken from diffuse light |
+//! | KHR_materials_diffuse_transmission | diffuse light from behind | ambient light and that of lamps comes through, the latter as Lambert's from the other side; what goes through is taken from diffuse light |
 //! | KHR_materials_pbrSpecularGlossiness | diffuse colour, `F0`, glossiness instead of metallic-roughness | that, wherever a material has it |
 //! | KHR_materials_variants | materials of which a user chooses | that; a primitive's own where none is chosen |
 
@@ -227,8 +227,18 @@ impl Reader<'_, '_> {
         let Some(info) = &json.normal_texture else {
             return Ok(None);
         };
-        let scale = info.scale.clamp(-super::BRIGHTEST, super::BRIGHTEST);
-        let texture = self.texture("normal", info, Encoding::Linear)?;
+        self.normals("normal", info, info.scale)
+    }
+
+    /// The use of a texture of normals.
+    pub(super) fn normals(
+        &mut self,
+        kind: &str,
+        info: impl Into<TextureInfo>,
+        scale: f32,
+    ) -> Result<Option<NormalMap>, Error> {
+        let scale = scale.clamp(-super::BRIGHTEST, super::BRIGHTEST);
+        let texture = self.texture(kind, info, Encoding::Linear)?;
         Ok(texture.map(|texture| NormalMap { texture, scale }))
     }
 

@@ -9,7 +9,7 @@ use crate::texture::Encoding;
 /// As files call it.
 pub(super) const NAME: &str = "KHR_materials_clearcoat";
 
-/// What it says. Its normal texture is not read: the coat has the surface's normal.
+/// What it says.
 #[derive(Default, serde::Deserialize)]
 #[serde(rename_all = "camelCase", default, expecting = "an object")]
 pub(super) struct Clearcoat {
@@ -19,11 +19,27 @@ pub(super) struct Clearcoat {
     clearcoat_roughness_factor: f32,
     /// In green.
     clearcoat_roughness_texture: Option<TextureInfo>,
+    clearcoat_normal_texture: Option<NormalInfo>,
+}
+
+/// A slot that says how deep the normals of its texture are.
+#[derive(serde::Deserialize)]
+struct NormalInfo {
+    #[serde(flatten)]
+    info: TextureInfo,
+    #[serde(default = "one")]
+    scale: f32,
+}
+
+fn one() -> f32 {
+    1.0
 }
 
 impl Clearcoat {
-    pub(super) fn textures(&self) -> [&Option<TextureInfo>; 2] {
-        [&self.clearcoat_texture, &self.clearcoat_roughness_texture]
+    pub(super) fn textures(&self) -> impl Iterator<Item = &TextureInfo> {
+        let of_numbers = [&self.clearcoat_texture, &self.clearcoat_roughness_texture];
+        let of_normal = self.clearcoat_normal_texture.iter().map(|slot| &slot.info);
+        of_numbers.into_iter().flatten().chain(of_normal)
     }
 
     /// Nothing where there is no coat.
@@ -41,7 +57,17 @@ impl Clearcoat {
             factor: reader.share("clearcoatRoughnessFactor", self.clearcoat_roughness_factor),
             texture: reader.slot("clearcoat roughness", roughness, Encoding::Linear)?,
         };
+        let normal_map = match &self.clearcoat_normal_texture {
+            Some(NormalInfo { info, scale }) => {
+                reader.normals("clearcoat normal", info.clone(), *scale)?
+            }
+            None => None,
+        };
         let is_there = weight.factor > 0.0;
-        Ok(is_there.then_some(material::Clearcoat { weight, roughness }))
+        Ok(is_there.then_some(material::Clearcoat {
+            weight,
+            roughness,
+            normal_map,
+        }))
     }
 }

@@ -83,7 +83,6 @@ impl Extended {
         let mut infos: Vec<&Option<TextureInfo>> = Vec::new();
         infos.extend(self.specular.iter().flat_map(Specular::textures));
         infos.extend(self.transmission.iter().flat_map(Transmission::textures));
-        infos.extend(self.clearcoat.iter().flat_map(Clearcoat::textures));
         infos.extend(self.sheen.iter().flat_map(Sheen::textures));
         infos.extend(self.iridescence.iter().flat_map(Iridescence::textures));
         infos.extend(self.anisotropy.iter().flat_map(Anisotropy::textures));
@@ -91,7 +90,9 @@ impl Extended {
         infos.extend(through.flat_map(DiffuseTransmission::textures));
         let glossy = self.specular_glossiness.iter();
         infos.extend(glossy.flat_map(SpecularGlossiness::textures));
-        infos.into_iter().flatten().map(|info| info.index)
+        let coat = self.clearcoat.iter().flat_map(Clearcoat::textures);
+        let all = infos.into_iter().flatten().chain(coat);
+        all.map(|info| info.index)
     }
 
     /// The light that goes through.

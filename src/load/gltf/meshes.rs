@@ -103,7 +103,7 @@ pub(super) fn all(
                     document.malformed(place.as_str(), "its mode is unknown, expected 0 to 6")
                 );
             };
-            let normal_map = materials.get(material).and_then(|m| m.normal_map.as_ref());
+            let normal_map = materials.get(material).and_then(Material::map_for_tangents);
             let normal_map = normal_map.map(|map| &map.texture);
             let wrong = |problem| document.malformed(format!("{place}, {}", draco::NAME), problem);
             let compressed = draco::of(primitive).map_err(wrong)?;

@@ -131,6 +131,12 @@ pub(super) fn check_material(
     if let Some(map) = &material.normal_map {
         finite(what, "normal scale", [map.scale; 3])?;
     }
+    if let Some(map) = material
+        .clearcoat()
+        .and_then(|coat| coat.normal_map.as_ref())
+    {
+        finite(what, "clearcoat normal scale", [map.scale; 3])?;
+    }
     material
         .textures()
         .try_for_each(|used| index(what, "texture", used.texture, textures))
