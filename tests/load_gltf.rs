@@ -7,4 +7,5 @@ mod geometry;
 mod materials;
 mod nodes;
 mod seen;
+mod textures;
 mod wrong;

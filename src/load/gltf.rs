@@ -13,6 +13,7 @@ mod container;
 mod document;
 mod emissive_strength;
 mod extensions;
+mod images;
 mod json;
 mod lights_punctual;
 mod materials;
@@ -21,6 +22,10 @@ mod meshes;
 mod nodes;
 mod primitive_modes;
 mod primitives;
+mod texture_basisu;
+mod texture_info;
+mod texture_transform;
+mod texture_webp;
 mod textures;
 mod uri;
 

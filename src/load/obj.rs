@@ -152,7 +152,7 @@ fn add_shapes(model: &mut Model, geometry: &Geometry, material_of: &[u32]) {
         mesh.name = name.cloned().unwrap_or_default();
         if has_normal_map
             && !mesh.uvs[0].is_empty()
-            && let Err(tangents::TooCrowded) = tangents::add(&mut mesh, 0)
+            && let Err(tangents::TooCrowded) = tangents::add(&mut mesh, 0, None)
         {
             let name = text::shown(mesh.name.as_bytes());
             model.warnings.add(format!(

@@ -5,7 +5,7 @@
 
 use crate::mesh::Mesh;
 use bevy_mikktspace::{Geometry, Ops, TangentSpace, generate_tangents};
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Mat3, Vec3, Vec4};
 use std::collections::HashMap;
 
 /// How many corners may meet in one point. MikkTSpace calls itself once for each, on the thread's stack, and its time
@@ -16,12 +16,18 @@ const MOST_AT_A_POINT: u32 = 2_000;
 #[derive(Debug, PartialEq)]
 pub(super) struct TooCrowded;
 
-/// Gives `mesh` tangents along +u of texture coordinates `uv_set`. Vertices whose corners differ in tangent are split.
+/// Gives `mesh` tangents along +u of texture coordinates `uv_set`, after the `transform` of the normal map: a map that
+/// is turned on the mesh takes its tangents along, as in three.js and in the Khronos viewer (glTF-Sample-Renderer, pull
+/// request 16). Vertices whose corners differ in tangent are split.
 ///
 /// # Errors
 ///
 /// Too many of its corners meet in one point; the mesh stays as it is.
-pub(super) fn add(mesh: &mut Mesh, uv_set: usize) -> Result<(), TooCrowded> {
+pub(super) fn add(
+    mesh: &mut Mesh,
+    uv_set: usize,
+    transform: Option<&Mat3>,
+) -> Result<(), TooCrowded> {
     if most_at_a_point(mesh) > MOST_AT_A_POINT {
         return Err(TooCrowded);
     }
@@ -36,6 +42,7 @@ pub(super) fn add(mesh: &mut Mesh, uv_set: usize) -> Result<(), TooCrowded> {
     let mut corners = Corners {
         mesh,
         uv_set,
+        transform,
         faces,
         tangents,
     };
@@ -64,6 +71,7 @@ fn most_at_a_point(mesh: &Mesh) -> u32 {
 struct Corners<'a> {
     mesh: &'a Mesh,
     uv_set: usize,
+    transform: Option<&'a Mat3>,
     /// The triangles it is told of.
     faces: Vec<usize>,
     /// Of all triangles.
@@ -125,8 +133,12 @@ impl Geometry<Libm> for Corners<'_> {
             .uvs
             .get(self.uv_set)
             .and_then(|set| set.get(self.vertex(face, corner)));
+        let uv = match (uv, self.transform) {
+            (Some(&uv), Some(transform)) => transform.transform_point2(uv),
+            (uv, _) => uv.copied().unwrap_or_default(),
+        };
         // glTF's v runs down the image, the green of its normal maps up it (section 3.9.3).
-        uv.map_or([0.0; 2], |&Vec2 { x, y }| [x + 0.0, 0.0 - y])
+        [uv.x + 0.0, 0.0 - uv.y]
     }
 
     fn set_tangent(&mut self, space: Option<TangentSpace>, face: usize, corner: usize) {
@@ -191,6 +203,7 @@ fn picked<T: Copy>(from: &[T], which: &[usize]) -> Vec<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec2;
 
     /// A square in the plane z = 0 whose image stands upright: u to the right, v down.
     fn square() -> Mesh {
@@ -206,7 +219,7 @@ mod tests {
     }
 
     fn with_tangents(mut mesh: Mesh) -> Mesh {
-        assert_eq!(add(&mut mesh, 0), Ok(()));
+        assert_eq!(add(&mut mesh, 0, None), Ok(()));
         mesh
     }
 
@@ -225,6 +238,16 @@ mod tests {
         }
         let mesh = with_tangents(mirrored);
         assert_eq!(mesh.tangents, [Vec4::new(-1.0, 0.0, 0.0, -1.0); 4]);
+    }
+
+    #[test]
+    fn a_map_that_is_turned_takes_its_tangents_along() {
+        // KHR_texture_transform with a rotation of a quarter: u' = v, v' = -u. The image's right is the mesh's down.
+        let turned = Mat3::from_cols(-Vec3::Y, Vec3::X, Vec3::Z);
+        let mut mesh = square();
+        assert_eq!(add(&mut mesh, 0, Some(&turned)), Ok(()));
+        assert_eq!(mesh.tangents, [Vec4::new(0.0, -1.0, 0.0, 1.0); 4]);
+        assert_eq!(mesh.uvs, square().uvs);
     }
 
     #[test]
@@ -256,7 +279,7 @@ mod tests {
     fn a_crowded_point_is_refused_not_recursed_into() {
         let mut fan = square();
         fan.triangles = vec![[0, 1, 2]; 2_001];
-        assert_eq!(add(&mut fan, 0), Err(TooCrowded));
+        assert_eq!(add(&mut fan, 0, None), Err(TooCrowded));
         assert!(fan.tangents.is_empty());
     }
 }

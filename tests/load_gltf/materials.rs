@@ -70,12 +70,12 @@ fn an_image_that_cannot_be_shown_leaves_the_factor() {
     assert_eq!(
         warnings(&model),
         [
+            "texture 3: has no image that luch reads: it is left out",
             "wood%20grain.png: cannot open: No such file or directory (os error 2): it is left out",
             "https://example.org/a.png: its URI begins with \"https:\", expected a file in the model's \
              folder or data: it is left out",
             "image 2: buffer view 9 does not exist, there are 1: it is left out",
             "material 0, occlusion texture: uses TEXCOORD_2, luch reads 0 and 1: it is left out",
-            "texture 3: has no image that luch reads: it is left out",
         ]
     );
     let names: Vec<&str> = model

@@ -1,7 +1,10 @@
 //! Which extensions luch honours, and what a file asks of them. One more is one more file and one more line here.
 
 use super::document::{Document, one_line};
-use super::{Warnings, emissive_strength, lights_punctual, materials_unlit};
+use super::{
+    Warnings, emissive_strength, lights_punctual, materials_unlit, texture_basisu,
+    texture_transform, texture_webp,
+};
 use crate::Error;
 use crate::load::{ExtensionFacts, Treatment};
 use serde::de::DeserializeOwned;
@@ -13,6 +16,9 @@ const KNOWN: &[(&str, Treatment)] = &[
     (emissive_strength::NAME, Treatment::Honoured),
     (lights_punctual::NAME, Treatment::Honoured),
     (materials_unlit::NAME, Treatment::Honoured),
+    (texture_basisu::NAME, Treatment::Honoured),
+    (texture_transform::NAME, Treatment::Honoured),
+    (texture_webp::NAME, Treatment::Honoured),
 ];
 
 /// What luch does with an extension.

@@ -3,6 +3,8 @@
 use super::document::{Document, named};
 use super::emissive_strength::{self, EmissiveStrength};
 use super::materials_unlit::{self, Unlit};
+use super::texture_info::TextureInfo;
+use super::texture_transform::{self, TextureTransform};
 use super::textures::Textures;
 use super::{Warnings, extensions};
 use crate::Error;
@@ -81,12 +83,7 @@ impl Reader<'_, '_> {
             .0
             .map(|c| self.share("baseColorFactor", c));
         let base_texture = match &pbr.base_color_texture {
-            Some(info) => self.texture(
-                "base colour",
-                info.index.value(),
-                info.tex_coord,
-                Encoding::Srgb,
-            )?,
+            Some(info) => self.texture("base colour", info, Encoding::Srgb)?,
             None => None,
         };
         let base_color = Textured {
@@ -123,19 +120,14 @@ impl Reader<'_, '_> {
         let metallic_roughness = match &pbr.metallic_roughness_texture {
             Some(info) => {
                 let name = "metallic-roughness";
-                self.texture(name, info.index.value(), info.tex_coord, Encoding::Linear)?
+                self.texture(name, info, Encoding::Linear)?
             }
             None => None,
         };
         let occlusion = match &json.occlusion_texture {
             Some(info) => Textured {
                 factor: self.share("occlusion strength", info.strength.0),
-                texture: self.texture(
-                    "occlusion",
-                    info.index.value(),
-                    info.tex_coord,
-                    Encoding::Linear,
-                )?,
+                texture: self.texture("occlusion", info, Encoding::Linear)?,
             },
             None => Textured::uniform(1.0),
         };
@@ -158,12 +150,7 @@ impl Reader<'_, '_> {
         let [r, g, b] =
             factor.map(|c| self.within("emissiveFactor", c, super::BRIGHTEST) * strength);
         let texture = match &json.emissive_texture {
-            Some(info) => self.texture(
-                "emissive",
-                info.index.value(),
-                info.tex_coord,
-                Encoding::Srgb,
-            )?,
+            Some(info) => self.texture("emissive", info, Encoding::Srgb)?,
             None => None,
         };
         let factor = Rgb::new(r, g, b);
@@ -194,40 +181,38 @@ impl Reader<'_, '_> {
             return Ok(None);
         };
         let scale = info.scale.clamp(-super::BRIGHTEST, super::BRIGHTEST);
-        let texture = self.texture(
-            "normal",
-            info.index.value(),
-            info.tex_coord,
-            Encoding::Linear,
-        )?;
+        let texture = self.texture("normal", info, Encoding::Linear)?;
         Ok(texture.map(|texture| NormalMap { texture, scale }))
     }
 
-    /// The use of a texture; `None` where it cannot be used, which is warned of.
+    /// The use of a texture, as any slot of the material or of an extension says it; `None` where it cannot be used,
+    /// which is warned of.
     fn texture(
         &mut self,
         kind: &str,
-        index: usize,
-        uv_set: u32,
+        info: impl Into<TextureInfo>,
         encoding: Encoding,
     ) -> Result<Option<TextureUse>, Error> {
+        let info = info.into();
         let place = format!("{}, {kind} texture", self.place);
-        let texture = self
-            .textures
-            .texture(&place, index, encoding, self.warnings)?;
-        let uv_set = match uv_set {
-            0 | 1 => uv_set as u8,
-            _ => {
+        let texture = self.textures.texture(&place, info.index, encoding)?;
+        let transform =
+            extensions::read::<TextureTransform>(info.extensions.as_ref(), texture_transform::NAME);
+        let transform = self.valid(transform).unwrap_or_default();
+        let uv_set = match transform.tex_coord.unwrap_or(info.tex_coord) {
+            uv_set @ (0 | 1) => uv_set as u8,
+            uv_set => {
                 self.warnings.add(format!(
                     "{place}: uses TEXCOORD_{uv_set}, luch reads 0 and 1: it is left out"
                 ));
                 return Ok(None);
             }
         };
+        let transform = self.valid(transform.matrix());
         Ok(texture.map(|texture| TextureUse {
             texture,
             uv_set,
-            transform: None,
+            transform,
         }))
     }
 

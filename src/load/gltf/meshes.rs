@@ -8,6 +8,7 @@ use crate::Error;
 use crate::load::{ModelMesh, Part};
 use crate::material::Material;
 use crate::mesh::Mesh;
+use crate::texture::TextureUse;
 use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked;
 use std::collections::HashMap;
@@ -38,7 +39,12 @@ pub(super) struct Geometry {
 }
 
 /// What tells primitives apart, but for their material.
-type Key = (Vec<(String, usize)>, Option<usize>, u32, Option<u8>);
+type Key = (
+    Vec<(String, usize)>,
+    Option<usize>,
+    u32,
+    Option<(u8, Option<[u32; 9]>)>,
+);
 
 /// Extensions that hold geometry outside accessors.
 const COMPRESSIONS: [&str; 1] = ["KHR_draco_mesh_compression"];
@@ -97,12 +103,12 @@ pub(super) fn all(
                 return Err(document.malformed(place, "its mode is unknown, expected 0 to 6"));
             };
             let normal_map = materials.get(material).and_then(|m| m.normal_map.as_ref());
-            let tangent_set = normal_map.map(|map| map.texture.uv_set);
-            let key = key(primitive, mode, tangent_set);
+            let normal_map = normal_map.map(|map| &map.texture);
+            let key = key(primitive, mode, normal_map);
             let drawn = match known.get(&key) {
                 Some(&drawn) => drawn,
                 None => {
-                    let drawn = reader.read(mode, tangent_set, &mut budget, warnings)?;
+                    let drawn = reader.read(mode, normal_map, &mut budget, warnings)?;
                     let drawn = geometry.take(drawn, &mesh.name);
                     known.insert(key, drawn);
                     drawn
@@ -163,7 +169,7 @@ fn compression(document: &Document, primitive: &Primitive) -> Option<&'static st
     (!whole).then_some(name)
 }
 
-fn key(primitive: &Primitive, mode: Mode, tangent_set: Option<u8>) -> Key {
+fn key(primitive: &Primitive, mode: Mode, normal_map: Option<&TextureUse>) -> Key {
     let attributes = primitive.attributes.iter();
     let attributes = attributes
         .filter_map(|(semantic, accessor)| match semantic {
@@ -172,7 +178,11 @@ fn key(primitive: &Primitive, mode: Mode, tangent_set: Option<u8>) -> Key {
         })
         .collect();
     let indices = primitive.indices.map(|index| index.value());
-    (attributes, indices, mode.as_gl_enum(), tangent_set)
+    let tangents = normal_map.map(|map| {
+        let transform = map.transform.map(|m| m.to_cols_array().map(f32::to_bits));
+        (map.uv_set, transform)
+    });
+    (attributes, indices, mode.as_gl_enum(), tangents)
 }
 
 fn warn_of_missing_coordinates(

@@ -8,6 +8,7 @@ use super::primitive_modes;
 use crate::Error;
 use crate::load::tangents::{self, TooCrowded};
 use crate::mesh::Mesh;
+use crate::texture::TextureUse;
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::accessor::Type;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -38,7 +39,7 @@ pub(super) enum Drawn {
 }
 
 impl Reader<'_> {
-    /// Reads the primitive. `tangent_set` is the set of texture coordinates of a normal map, where there is one.
+    /// Reads the primitive. `normal_map` is the use of a texture for which it needs tangents.
     ///
     /// # Errors
     ///
@@ -47,7 +48,7 @@ impl Reader<'_> {
     pub(super) fn read(
         &self,
         mode: Mode,
-        tangent_set: Option<u8>,
+        normal_map: Option<&TextureUse>,
         budget: &mut u64,
         warnings: &mut Warnings,
     ) -> Result<Drawn, Error> {
@@ -88,8 +89,8 @@ impl Reader<'_> {
             ..Mesh::default()
         };
         self.attributes(&mut mesh, &kept, positions.count, warnings)?;
-        if let Some(set) = tangent_set {
-            mesh = self.tangents(mesh, &kept, positions.count, usize::from(set), warnings)?;
+        if let Some(map) = normal_map {
+            mesh = self.tangents(mesh, &kept, positions.count, map, warnings)?;
         }
         Ok(Drawn::Triangles(mesh, left_out))
     }
@@ -143,15 +144,17 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's.
+    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's. The
+    /// file's stay as they are where the map is turned (KHR_texture_transform): who wrote them knew of that.
     fn tangents(
         &self,
         mut mesh: Mesh,
         kept: &Kept,
         count: usize,
-        set: usize,
+        map: &TextureUse,
         warnings: &mut Warnings,
     ) -> Result<Mesh, Error> {
+        let set = usize::from(map.uv_set);
         let given = self.attribute(&Semantic::Tangents, "TANGENT", &[Type::Vec4], count)?;
         if let Some(tangents) = given.filter(|_| !mesh.normals.is_empty()) {
             mesh.tangents = kept.gather(|i| {
@@ -168,7 +171,7 @@ impl Reader<'_> {
             ));
             return Ok(mesh);
         }
-        if let Err(TooCrowded) = tangents::add(&mut mesh, set) {
+        if let Err(TooCrowded) = tangents::add(&mut mesh, set, map.transform.as_ref()) {
             warnings.add(format!(
                 "{}: too many corners meet in one point for tangents, so that its normal map is ignored",
                 self.place

@@ -1,25 +1,30 @@
-//! Images and the textures that show them. What cannot be shown is left out with a warning, and the material's factor
-//! stands alone.
+//! Textures: which image each shows, and how. What cannot be shown is left out with a warning, and the material's
+//! factor stands alone.
+//!
+//! Filters for images that are drawn small (`minFilter`, mipmaps) are not used: several samples a pixel stand for them.
 
-use super::Warnings;
-use super::buffers::Buffers;
-use super::document::{Document, named, one_line};
-use super::uri::{self, Uri};
+use super::document::{Document, named};
+use super::images::{Decoder, Tried, image_name};
+use super::texture_basisu::{self, TextureBasisu};
+use super::texture_webp::{self, TextureWebp};
+use super::{Buffers, Warnings, extensions};
 use crate::Error;
-use crate::load::{TextureFacts, files, images};
+use crate::load::TextureFacts;
 use crate::texture::{Encoding, Filter, Image, Texture, Wrap};
 use gltf::json::texture::{MagFilter, WrappingMode};
 use gltf::json::validation::Checked;
-use rayon::prelude::*;
 use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
+
+/// The `source` of a texture without one, as crate `gltf` has it.
+const NO_SOURCE: usize = u32::MAX as usize;
 
 /// The textures of a file, made as materials ask for them.
 #[derive(Debug)]
 pub(super) struct Textures<'a> {
     document: &'a Document,
-    /// By their index in the file; `None` where an image is not asked for, or cannot be shown.
+    /// By texture; `None` where none is asked for, or none can be shown.
     images: Vec<Option<Arc<Image>>>,
     /// One for each texture of the file and each meaning of its numbers.
     pub(super) textures: Vec<Texture>,
@@ -28,17 +33,6 @@ pub(super) struct Textures<'a> {
     pub(super) facts: Vec<TextureFacts>,
     /// Every file that was read.
     pub(super) files: Vec<PathBuf>,
-}
-
-/// Where an image's bytes are. Images with the same source are one image.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-enum Source {
-    /// Its path.
-    File(PathBuf),
-    /// Buffer, first byte, length.
-    View(usize, u64, u64),
-    /// The index of the image whose data URI it is.
-    Data(usize),
 }
 
 impl<'a> Textures<'a> {
@@ -50,65 +44,38 @@ impl<'a> Textures<'a> {
         warnings: &mut Warnings,
     ) -> Textures<'a> {
         let root = &document.root;
-        let mut shown = BTreeSet::new();
+        let mut candidates: Vec<Vec<usize>> = vec![Vec::new(); root.textures.len()];
         for &texture in used {
-            shown.extend(
-                root.textures
-                    .get(texture)
-                    .map(|texture| texture.source.value()),
-            );
-        }
-        let shown: Vec<usize> = shown
-            .into_iter()
-            .filter(|&image| image < root.images.len())
-            .collect();
-        // The first image of each source is decoded for all of them.
-        let mut first_of: HashMap<Source, usize> = HashMap::new();
-        let mut same_as: Vec<(usize, Result<usize, String>)> = Vec::new();
-        let mut work: Vec<(usize, Source)> = Vec::new();
-        for image in shown {
-            let first = source(document, image).map(|source| {
-                *first_of.entry(source.clone()).or_insert_with(|| {
-                    work.push((image, source));
-                    image
-                })
-            });
-            same_as.push((image, first));
-        }
-        let decoded: HashMap<usize, Result<Arc<Image>, String>> = work
-            .par_iter()
-            .map(|(image, source)| {
-                (
-                    *image,
-                    decode(document, buffers, *image, source).map(Arc::new),
-                )
-            })
-            .collect();
-        let mut images: Vec<Option<Arc<Image>>> = vec![None; root.images.len()];
-        for (image, first) in same_as {
-            let found =
-                first.and_then(|first| decoded.get(&first).cloned().unwrap_or(Err(String::new())));
-            match found {
-                Ok(found) => images[image] = Some(found),
-                Err(problem) => warnings.add(format!(
-                    "{}: {problem}: it is left out",
-                    image_name(document, image)
-                )),
+            if let Some(place) = candidates.get_mut(texture) {
+                *place = self::candidates(document, texture, warnings);
             }
         }
-        let facts = images
-            .iter()
-            .enumerate()
-            .map(|(index, image)| TextureFacts {
+        let mut tried = Tried::new();
+        let mut files = Vec::new();
+        let mut decoder = Decoder::new(document, buffers);
+        loop {
+            // Each texture's best image that has not failed; a further round is for those whose image just did.
+            let next: BTreeSet<usize> = candidates
+                .iter()
+                .filter_map(|images| first_usable(images, &tried))
+                .filter(|image| !tried.contains_key(image))
+                .collect();
+            if next.is_empty() {
+                break;
+            }
+            decoder.decode(&next, &mut tried, &mut files, warnings);
+        }
+        let shown = |image: usize| tried.get(&image).and_then(|found| found.as_ref().ok());
+        let facts = (0..root.images.len())
+            .map(|index| TextureFacts {
                 name: image_name(document, index),
-                size: image.as_ref().map(|image| (image.width, image.height)),
-            });
-        let facts = facts.collect();
-        let files = work.into_iter().filter_map(|(image, source)| match source {
-            Source::File(path) if images[image].is_some() => Some(path),
-            _ => None,
-        });
-        let files = files.collect();
+                size: shown(index).map(|image| (image.width, image.height)),
+            })
+            .collect();
+        let images = candidates
+            .iter()
+            .map(|images| first_usable(images, &tried).and_then(shown).cloned())
+            .collect();
         Textures {
             document,
             images,
@@ -130,7 +97,6 @@ impl<'a> Textures<'a> {
         place: &str,
         index: usize,
         encoding: Encoding,
-        warnings: &mut Warnings,
     ) -> Result<Option<u32>, Error> {
         let key = (index, encoding == Encoding::Srgb);
         if let Some(&made) = self.made.get(&key) {
@@ -144,17 +110,11 @@ impl<'a> Textures<'a> {
         let name = named("texture", index, texture.name.as_ref());
         let source = texture.source.value();
         // What crate `gltf` has where the file has nothing.
-        let image = if source == u32::MAX as usize {
-            warnings.add(format!(
-                "{name}: has no image that luch reads: it is left out"
-            ));
-            None
-        } else {
-            let source =
-                self.document
-                    .checked(name.as_str(), "image", source, root.images.len())?;
-            self.images[source].clone()
-        };
+        if source != NO_SOURCE {
+            self.document
+                .checked(name.as_str(), "image", source, root.images.len())?;
+        }
+        let image = self.images.get(index).cloned().flatten();
         let sampler = match texture.sampler {
             Some(sampler) => {
                 let count = root.samplers.len();
@@ -200,73 +160,46 @@ fn wrap(mode: Checked<WrappingMode>) -> Wrap {
     }
 }
 
-/// The file's path, or the image's name; `image 3` where it has neither.
-fn image_name(document: &Document, index: usize) -> String {
-    let image = document.root.images.get(index);
-    let path = image
-        .and_then(|image| image.uri.as_deref())
-        .filter(|uri| !uri.starts_with("data:"));
-    let name = image.and_then(|image| image.name.as_deref());
-    match path.or(name) {
-        Some(name) if !name.is_empty() => one_line(name),
-        _ => format!("image {index}"),
-    }
-}
-
-fn source(document: &Document, index: usize) -> Result<Source, String> {
+/// The images that can show a texture, the best first: an extension's, then its own.
+fn candidates(document: &Document, index: usize, warnings: &mut Warnings) -> Vec<usize> {
     let root = &document.root;
-    let image = root.images.get(index).ok_or("does not exist")?;
-    match (&image.uri, image.buffer_view) {
-        (Some(uri), _) if uri.starts_with("data:") => Ok(Source::Data(index)),
-        (Some(uri), _) => match uri::resolve(uri, document)? {
-            Uri::File(path) => Ok(Source::File(path)),
-            Uri::Data(_) => Ok(Source::Data(index)),
-        },
-        (None, Some(view)) => {
-            let count = root.buffer_views.len();
-            let index = view.value();
-            let view = root
-                .buffer_views
-                .get(index)
-                .ok_or_else(|| format!("buffer view {index} does not exist, there are {count}"))?;
-            let start = view.byte_offset.unwrap_or_default().0;
-            Ok(Source::View(view.buffer.value(), start, view.byte_length.0))
+    let Some(texture) = root.textures.get(index) else {
+        return Vec::new();
+    };
+    let name = named("texture", index, texture.name.as_ref());
+    let others = texture.extensions.as_ref().map(|e| &e.others);
+    let basisu = extensions::read::<TextureBasisu>(others, texture_basisu::NAME);
+    let webp = extensions::read::<TextureWebp>(others, texture_webp::NAME);
+    let of_extensions = [
+        basisu.map(|basisu| basisu.map(|basisu| basisu.source)),
+        webp.map(|webp| webp.and_then(|webp| webp.source)),
+    ];
+    let count = root.images.len();
+    let mut images = Vec::new();
+    for image in of_extensions {
+        match image {
+            Ok(Some(image)) if image < count => images.push(image),
+            Ok(None) => {}
+            Ok(Some(image)) => warnings.add(format!(
+                "{name}: image {image} does not exist, there are {count}: the extension is ignored"
+            )),
+            Err(problem) => warnings.add(format!("{name}: {problem}: the extension is ignored")),
         }
-        (None, None) => Err("has neither a URI nor a buffer view".into()),
     }
+    let own = texture.source.value();
+    if own < count && !images.contains(&own) {
+        images.push(own);
+    }
+    if images.is_empty() && own == NO_SOURCE {
+        warnings.add(format!(
+            "{name}: has no image that luch reads: it is left out"
+        ));
+    }
+    images
 }
 
-fn decode(
-    document: &Document,
-    buffers: &Buffers,
-    index: usize,
-    source: &Source,
-) -> Result<Image, String> {
-    let json = document.root.images.get(index).ok_or("does not exist")?;
-    match source {
-        Source::File(path) => {
-            let bytes = files::read(path, &document.budget).map_err(|error| why(&error))?;
-            images::decode(&path.to_string_lossy(), &bytes, &document.budget)
-        }
-        Source::Data(_) => match uri::resolve(json.uri.as_deref().unwrap_or_default(), document)? {
-            Uri::Data(bytes) => {
-                images::decode(&image_name(document, index), &bytes, &document.budget)
-            }
-            Uri::File(_) => Err("is no data URI".into()),
-        },
-        Source::View(..) => {
-            let view = json.buffer_view.ok_or("has no buffer view")?;
-            let view = buffers.view(view.value())?;
-            images::decode(&image_name(document, index), view.bytes, &document.budget)
-        }
-    }
-}
-
-/// An error of a file that the sentence around it names already.
-fn why(error: &Error) -> String {
-    match error {
-        Error::Io { doing, reason, .. } => format!("cannot {doing}: {reason}"),
-        Error::Malformed { problem, .. } => problem.clone(),
-        other => other.to_string(),
-    }
+/// The first of `images` that has not failed.
+fn first_usable(images: &[usize], tried: &Tried) -> Option<usize> {
+    let usable = |image: &&usize| !matches!(tried.get(image), Some(Err(_)));
+    images.iter().find(usable).copied()
 }

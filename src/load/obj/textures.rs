@@ -116,6 +116,14 @@ impl Textures {
         }
     }
 
+    /// Decodes an image, if there is the memory for it and as much again three times on the way.
+    fn decode(&self, name: &str, bytes: &[u8]) -> Result<images::Decoded, String> {
+        let needs = 4 * images::header(name, bytes)?.bytes_decoded();
+        let taken = self.budget.take(needs);
+        taken.map_err(|problem| problem.to_string())?;
+        images::decode(name, bytes)
+    }
+
     fn image(&mut self, map: &Map) -> Option<Arc<Image>> {
         let shown = shown(map.name.as_bytes());
         let path = match self.finder.find(&map.name, &self.folders) {
@@ -149,11 +157,16 @@ impl Textures {
             .map_err(|error| error.to_string())
             .and_then(|bytes| {
                 self.files.push(path.clone());
-                images::decode(&name, &bytes, &self.budget)
+                self.decode(&name, &bytes)
                     .map_err(|problem| format!("{name}: {problem}"))
             });
         let image = match decoded {
-            Ok(image) => Some(Arc::new(image)),
+            Ok(decoded) => {
+                if let Some(flaw) = decoded.flaw {
+                    self.warnings.add(format!("{name}: {flaw}"));
+                }
+                Some(Arc::new(decoded.image))
+            }
             Err(problem) => {
                 self.warnings
                     .add(format!("{problem}; the texture is not used"));
