@@ -1,6 +1,9 @@
 //! The command line: one file a command, and the only place that prints.
 
+mod animation;
 mod arguments;
+mod asks;
+mod cameras;
 mod info;
 mod interrupt;
 mod outputs;

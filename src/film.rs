@@ -79,7 +79,8 @@ pub const DEPTH: Layer = Layer {
     values: Vec::new(),
 };
 
-/// What the rays of a sample (of the camera, behind transparent surfaces, toward lights, off mirrors) were tested against,
+/// What the rays of a sample (of the camera, behind transparent surfaces, toward lights, off mirrors, through bodies) were
+/// tested against,
 /// each counted on its own way: see [`crate::accel::Tests`].
 pub const COST: Layer = Layer {
     name: "cost",
@@ -129,6 +130,8 @@ pub struct Statistics {
     pub shadow_rays: u64,
     /// Rays off mirrors.
     pub mirror_rays: u64,
+    /// Rays that went into bodies, out of them, or through thin sheets, and those reflected totally on the way.
+    pub refracted_rays: u64,
     /// Rays that ended in the [`crate::whitted::MAX_LAYERS`]th transparent layer.
     pub lost_in_layers: u64,
     /// From the first ray to the last.
@@ -143,7 +146,11 @@ pub struct Statistics {
 impl Statistics {
     /// Rays of every kind.
     pub fn rays(&self) -> u64 {
-        self.camera_rays + self.transparent_rays + self.shadow_rays + self.mirror_rays
+        self.camera_rays
+            + self.transparent_rays
+            + self.shadow_rays
+            + self.mirror_rays
+            + self.refracted_rays
     }
 
     /// The counts of both, and what was measured; the time stays.
@@ -152,6 +159,7 @@ impl Statistics {
         self.transparent_rays += other.transparent_rays;
         self.shadow_rays += other.shadow_rays;
         self.mirror_rays += other.mirror_rays;
+        self.refracted_rays += other.refracted_rays;
         self.lost_in_layers += other.lost_in_layers;
         self.watched += other.watched;
         self.search += other.search;

@@ -4,26 +4,32 @@ pub mod gltf;
 pub mod obj;
 pub mod scene_file;
 
+mod analytic;
+mod animated;
 mod asset;
 mod budget;
+mod choice;
 mod exposure;
 mod files;
 mod images;
 mod memory;
 mod model;
 mod options;
+mod pose;
 mod tangents;
 mod text_bytes;
 mod viewpoint;
 mod warnings;
 
+pub use analytic::{Analytic, AnalyticKind};
 pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
 pub use budget::{Budget, OutOfMemory};
 pub use model::{
-    ExtensionFacts, Facts, Model, ModelCamera, ModelMesh, Node, Part, TextureFacts, Treatment,
+    AnimationFacts, Ask, Facts, Model, ModelCamera, ModelMesh, Moved, Node, Note, Part,
+    TextureFacts, Treatment,
 };
 pub use options::{AnimationChoice, Options};
-pub use viewpoint::{CameraChoice, Choices, Viewpoint};
+pub use viewpoint::{CameraChoice, Choices, PlacedCamera, Viewpoint};
 pub use warnings::{Warning, Warnings};
 
 use crate::Error;
@@ -40,8 +46,14 @@ pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
     let of_model = |model| Asset::of_model(model, budget.clone());
     match extension.as_deref() {
         Some("toml") => scene_file::open(path, options),
-        Some("gltf" | "glb") => gltf::open_within(path, options, &budget).map(of_model),
-        Some("obj") => obj::open_within(path, options, &budget).map(of_model),
+        Some("gltf" | "glb") => {
+            let model = gltf::open_within(path, options, &budget)?;
+            animated::check(of_model(model), options)
+        }
+        Some("obj") => {
+            let model = obj::open_within(path, options, &budget)?;
+            animated::check(of_model(model), options)
+        }
         _ => {
             files::check(path)?;
             Err(Error::Unsupported {

@@ -1,5 +1,9 @@
 //! What a surface is made of, as its file says it.
 
+mod finish;
+
+pub use finish::{Clearcoat, DiffuseTransmission, Finish, Iridescence, Sheen};
+
 use crate::color::Rgb;
 use crate::texture::{Checker, TextureUse};
 
@@ -48,6 +52,8 @@ pub enum Model {
     Phong(Phong),
     /// Base colour, metalness, roughness: glTF.
     MetallicRoughness(MetallicRoughness),
+    /// Diffuse colour, specular colour, glossiness: glTF's older way (KHR_materials_pbrSpecularGlossiness).
+    SpecularGlossiness(SpecularGlossiness),
     /// A colour that light does not change (KHR_materials_unlit).
     Unlit {
         /// Shown as it is.
@@ -81,6 +87,21 @@ pub struct MetallicRoughness {
     pub roughness: f32,
     /// Multiplies both: roughness in green, metalness in blue.
     pub metallic_roughness: Option<TextureUse>,
+    /// How much a texture's red keeps ambient light away, 0..1.
+    pub occlusion: Textured<f32>,
+    /// What extensions add; few materials have any.
+    pub finish: Option<Box<Finish>>,
+}
+
+/// The parameters of KHR_materials_pbrSpecularGlossiness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpecularGlossiness {
+    /// Albedo, before the specular colour takes its share.
+    pub diffuse: Textured<Rgb>,
+    /// What is reflected head-on.
+    pub specular: Textured<Rgb>,
+    /// 1 less the perceptual roughness, 0..1; the specular texture's alpha multiplies it.
+    pub glossiness: f32,
     /// How much a texture's red keeps ambient light away, 0..1.
     pub occlusion: Textured<f32>,
 }
@@ -142,11 +163,12 @@ pub struct NormalMap {
 pub struct Transmission {
     /// How much of the light that would be diffuse goes through instead, 0..1; a texture's red multiplies it.
     pub share: Textured<f32>,
-    /// The index of refraction of what lies behind the surface.
+    /// The index of refraction of what lies behind the surface; below 1 for a bubble in something denser.
     pub ior: f32,
     /// 20 divided by Abbe's number; 0 bends every colour alike.
     pub dispersion: f32,
-    /// What lies behind the surface, up to the surface where light leaves it; `None` where the surface is a thin sheet.
+    /// What lies behind the surface, up to the surface where light leaves it; `None` where the surface is a thin sheet,
+    /// behind which light goes straight on.
     pub volume: Option<Volume>,
 }
 
@@ -157,6 +179,19 @@ pub struct Volume {
     pub attenuation_color: Rgb,
     /// In the scene's unit; infinity where nothing is lost.
     pub attenuation_distance: f32,
+}
+
+impl Volume {
+    /// The share of light that is left after a way of `length`: Beer's law, `attenuation_color^(length / distance)`
+    /// (KHR_materials_volume).
+    pub fn transmittance(&self, length: f32) -> Rgb {
+        if self.attenuation_distance == f32::INFINITY {
+            return Rgb::WHITE;
+        }
+        let exponent = length.max(0.0) / self.attenuation_distance;
+        let left = |channel: f32| libm::powf(channel, exponent);
+        self.attenuation_color.map(left)
+    }
 }
 
 impl Material {
@@ -182,7 +217,29 @@ impl Material {
 
     /// Whether a ray that meets the front of this material anywhere ends there: the one bit that acceleration knows.
     pub fn is_opaque(&self) -> bool {
-        self.alpha.mode == AlphaMode::Opaque
+        self.alpha.mode == AlphaMode::Opaque && self.transmits().is_none()
+    }
+
+    /// What lets light through, where anything does. A colour that light does not change lets none through, whatever
+    /// its file says, and an index of 0 is glTF's word for a surface that mirrors everything (KHR_materials_ior).
+    pub fn transmits(&self) -> Option<&Transmission> {
+        let lit = !matches!(self.model, Model::Unlit { .. });
+        let transmission = self.transmission.as_ref();
+        transmission.filter(|t| lit && t.share.factor > 0.0 && t.ior > 0.0)
+    }
+
+    /// What lies behind the surface, where it bounds a body that light goes through.
+    pub fn volume(&self) -> Option<&Volume> {
+        self.transmits()?.volume.as_ref()
+    }
+
+    /// What keeps ambient light away, where the model of the material has such a thing.
+    pub fn occlusion(&self) -> Option<&Textured<f32>> {
+        match &self.model {
+            Model::MetallicRoughness(m) => Some(&m.occlusion),
+            Model::SpecularGlossiness(m) => Some(&m.occlusion),
+            Model::Phong(_) | Model::Unlit { .. } => None,
+        }
     }
 
     /// Every use of a texture.
@@ -198,6 +255,11 @@ impl Material {
                 m.metallic_roughness.as_ref(),
                 m.occlusion.texture.as_ref(),
             ],
+            Model::SpecularGlossiness(m) => [
+                m.diffuse.texture.as_ref(),
+                m.specular.texture.as_ref(),
+                m.occlusion.texture.as_ref(),
+            ],
             Model::Unlit { color } => [color.texture.as_ref(), None, None],
         };
         let of_all = [
@@ -208,20 +270,38 @@ impl Material {
             self.alpha.coverage.texture.as_ref(),
             self.normal_map.as_ref().map(|map| &map.texture),
         ];
-        of_model.into_iter().chain(of_all).flatten()
+        let finish = match &self.model {
+            Model::MetallicRoughness(m) => m.finish.as_deref(),
+            _ => None,
+        };
+        let of_finish = finish.into_iter().flat_map(Finish::textures);
+        of_model
+            .into_iter()
+            .chain(of_all)
+            .flatten()
+            .chain(of_finish)
     }
 
     /// Every use of a texture, to be changed.
     pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut TextureUse> {
+        let mut finish = None;
         let of_model: [Option<&mut TextureUse>; 3] = match &mut self.model {
             Model::Phong(m) => [
                 m.diffuse.texture.as_mut(),
                 m.specular.texture.as_mut(),
                 None,
             ],
-            Model::MetallicRoughness(m) => [
-                m.base_color.texture.as_mut(),
-                m.metallic_roughness.as_mut(),
+            Model::MetallicRoughness(m) => {
+                finish = m.finish.as_deref_mut();
+                [
+                    m.base_color.texture.as_mut(),
+                    m.metallic_roughness.as_mut(),
+                    m.occlusion.texture.as_mut(),
+                ]
+            }
+            Model::SpecularGlossiness(m) => [
+                m.diffuse.texture.as_mut(),
+                m.specular.texture.as_mut(),
                 m.occlusion.texture.as_mut(),
             ],
             Model::Unlit { color } => [color.texture.as_mut(), None, None],
@@ -234,6 +314,11 @@ impl Material {
             self.alpha.coverage.texture.as_mut(),
             self.normal_map.as_mut().map(|map| &mut map.texture),
         ];
-        of_model.into_iter().chain(of_all).flatten()
+        let of_finish = finish.into_iter().flat_map(Finish::textures_mut);
+        of_model
+            .into_iter()
+            .chain(of_all)
+            .flatten()
+            .chain(of_finish)
     }
 }

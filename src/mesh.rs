@@ -2,6 +2,7 @@
 
 use crate::geometry::{Bounds, Triangle};
 use glam::{DAffine3, DMat3, Vec2, Vec3, Vec4};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 
 /// Triangles over shared vertices. What belongs to vertices is empty or as long as `positions`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -76,19 +77,19 @@ impl Mesh {
     pub fn transformed(mut self, transform: &DAffine3) -> Mesh {
         let matrix = transform.matrix3;
         let turn = normal_matrix(&matrix);
-        for p in &mut self.positions {
+        each(&mut self.positions, |p| {
             *p = transform.transform_point3(p.as_dvec3()).as_vec3();
-        }
-        for n in &mut self.normals {
+        });
+        each(&mut self.normals, |n| {
             *n = (turn * n.as_dvec3()).normalize_or_zero().as_vec3();
-        }
+        });
         let mirrors = matrix.determinant() < 0.0;
-        for t in &mut self.tangents {
+        each(&mut self.tangents, |t| {
             let along = (matrix * t.truncate().as_dvec3())
                 .normalize_or_zero()
                 .as_vec3();
             *t = along.extend(if mirrors { -t.w } else { t.w });
-        }
+        });
         if mirrors {
             self.triangles
                 .iter_mut()
@@ -96,6 +97,15 @@ impl Mesh {
         }
         self
     }
+}
+
+/// Does `change` to each, many at a time.
+fn each<T: Send>(all: &mut [T], change: impl Fn(&mut T) + Sync) {
+    /// Fewer are not worth a thread.
+    const PIECE: usize = 1 << 14;
+    all.par_iter_mut()
+        .with_min_len(PIECE)
+        .for_each(|one| change(one));
 }
 
 /// What carries normals where `matrix` carries points: the inverse transpose, but for length. From cofactors, so that

@@ -4,12 +4,15 @@ mod check;
 mod error;
 mod layout;
 mod look;
+mod microfacets;
 mod mix;
 mod surface;
+mod through;
 
 pub use error::SceneError;
 pub use layout::{InstanceSpace, PlacedInstance, Primitive, Recent};
 pub use surface::{Met, Place, Surface};
+pub use through::{Filter, Through, Way};
 
 use crate::camera::Camera;
 use crate::color::Rgb;
@@ -128,6 +131,7 @@ pub struct Scene {
     /// Of each material that answers light the same way everywhere, how.
     plain: Vec<Option<Reflectance>>,
     lamps: Vec<Lamp>,
+    has_volumes: bool,
 }
 
 impl Scene {
@@ -171,6 +175,7 @@ impl Scene {
         // Last: a camera may have been framed to what was found wrong above.
         check::check_camera(&description.camera)?;
         let plain = description.materials.iter().map(look::plain).collect();
+        let has_volumes = description.materials.iter().any(|m| m.volume().is_some());
         let lamps = description.lights.iter().map(Lamp::of).collect();
         Ok(Scene {
             camera: description.camera,
@@ -187,6 +192,7 @@ impl Scene {
             bytes,
             plain,
             lamps,
+            has_volumes,
         })
     }
 
@@ -208,6 +214,11 @@ impl Scene {
     /// The materials, by index.
     pub fn materials(&self) -> &[Material] {
         &self.materials
+    }
+
+    /// Whether light goes into any body, so that it matters how far.
+    pub fn has_volumes(&self) -> bool {
+        self.has_volumes
     }
 
     /// The lights, in the order in which their light is added.

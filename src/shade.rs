@@ -1,11 +1,21 @@
 //! How surfaces answer light: pure functions of directions.
 
+pub mod anisotropy;
 pub mod blinn_phong;
+pub mod clearcoat;
 pub mod flat;
+pub mod iridescence;
 pub mod lambert;
+mod layers;
 pub mod metallic_roughness;
+pub mod microfacet;
 pub mod mirror;
 pub mod phong;
+pub mod refraction;
+pub mod sheen;
+pub mod specular_glossiness;
+
+pub use layers::Layers;
 
 use crate::color::Rgb;
 use glam::Vec3;
@@ -25,6 +35,8 @@ pub struct Reflectance {
     pub ambient: Rgb,
     /// Light of the surface's own.
     pub emission: Rgb,
+    /// Highlights over the surface's own; few have any.
+    pub layers: Option<Layers>,
 }
 
 /// The shading models.
@@ -50,6 +62,7 @@ impl Reflectance {
         reflectivity: Rgb::BLACK,
         ambient: Rgb::BLACK,
         emission: Rgb::BLACK,
+        layers: None,
     };
 }
 
@@ -59,11 +72,16 @@ impl Shading {
     /// `n`, `l`, `v` are unit vectors that point away from the surface; `e` is the light's irradiance.
     #[inline(always)]
     pub fn reflected(self, surface: &Reflectance, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
-        match self {
+        let base = match self {
             Shading::Flat => Rgb::BLACK,
             Shading::Lambert => lambert::reflected(surface, n, l, e),
             Shading::Phong => phong::reflected(surface, n, l, v, e),
             Shading::BlinnPhong => blinn_phong::reflected(surface, n, l, v, e),
+        };
+        match (&surface.layers, self) {
+            (Some(layers), Shading::Phong) => base + layers.phong(n, l, v, e),
+            (Some(layers), Shading::BlinnPhong) => base + layers.blinn_phong(n, l, v, e),
+            _ => base,
         }
     }
 }
@@ -81,6 +99,7 @@ pub(crate) mod test_surface {
             reflectivity: Rgb::BLACK,
             ambient: Rgb::grey(0.5),
             emission: Rgb::BLACK,
+            layers: None,
         }
     }
 }

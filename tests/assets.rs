@@ -107,6 +107,16 @@ fn cube_obj() -> String {
 
 const CUBE_MTL: &str = "# the cube's material\nnewmtl red\nKd 0.8 0.1 0.1\n";
 
+/// A square of side 2 that faces +z.
+const SHEET_OBJ: &str = "# a square, made by luch (tests/assets.rs), CC0
+o sheet
+v -1 -1 0
+v 1 -1 0
+v 1 1 0
+v -1 1 0
+f 1 2 3 4
+";
+
 /// Positions, normals, texture coordinates and indices, one after the other.
 fn cube_buffer() -> Vec<u8> {
     let sides = cube_sides();
@@ -159,6 +169,11 @@ fn cube_glb() -> Vec<u8> {
         &chunks,
     ]
     .concat()
+}
+
+#[test]
+fn the_sheet_is_what_this_file_says() {
+    assert_asset("sheet.obj", SHEET_OBJ.as_bytes());
 }
 
 #[test]

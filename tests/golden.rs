@@ -117,6 +117,15 @@ fn a_model_stands_among_spheres_on_a_plane() {
 }
 
 #[test]
+fn glass_bends_light_and_tints_shadows() {
+    assert_golden(
+        "glass",
+        &scene_of("assets/scenes/glass.toml"),
+        Display::Srgb,
+    );
+}
+
+#[test]
 fn a_model_without_camera_and_light_is_framed_and_lit() {
     assert_golden(
         "cube",

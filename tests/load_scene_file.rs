@@ -10,7 +10,7 @@ use luch::color::Rgb;
 use luch::light::{Falloff, Light, LightKind};
 use luch::load::scene_file::{open, parse};
 use luch::load::{Asset, CameraSource, Options, PictureDefaults};
-use luch::material::{Alpha, Material, Model};
+use luch::material::{Alpha, Material, Model, Textured, Transmission, Volume};
 use luch::shade::Shading;
 use luch::texture::Checker;
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -224,6 +224,43 @@ fn every_key_of_a_material_is_read() {
         size: 2.0,
     };
     assert_eq!(phong.checker, Some(checker));
+}
+
+#[test]
+fn every_key_of_what_goes_through_a_material_is_read() {
+    let asset = with(
+        "[[material]]\nname = \"a\"\ntransmission = 0.5\nior = 1.3\nattenuation_color = [0.1, 0.2, 0.3]\n\
+         attenuation_distance = 2\ndispersion = 0.25\n\
+         [[material]]\nname = \"b\"\ntransmission = 1\n\
+         [[material]]\nname = \"c\"\ntransmission = 1\nthin = true",
+    );
+    let volume = |attenuation_color, attenuation_distance| Volume {
+        attenuation_color,
+        attenuation_distance,
+    };
+    let all = Transmission {
+        share: Textured::uniform(0.5),
+        ior: 1.3,
+        dispersion: 0.25,
+        volume: Some(volume(Rgb::new(0.1, 0.2, 0.3), 2.0)),
+    };
+    let clear = Transmission {
+        share: Textured::uniform(1.0),
+        ior: 1.5,
+        dispersion: 0.0,
+        volume: Some(volume(Rgb::WHITE, f32::INFINITY)),
+    };
+    let thin = Transmission {
+        volume: None,
+        ..clear.clone()
+    };
+    for (material, expected) in asset.materials[1..].iter().zip([all, clear, thin]) {
+        assert_eq!(material.transmission, Some(expected));
+        let Model::Phong(phong) = &material.model else {
+            panic!("{material:?}");
+        };
+        assert_eq!(phong.diffuse.factor, Rgb::WHITE);
+    }
 }
 
 #[test]

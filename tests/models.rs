@@ -42,19 +42,18 @@ fn real_models_give_a_picture_or_one_line() {
     let outcomes = tried(
         "real_models_give_a_picture_or_one_line",
         &["valid", "obj"],
-        32,
+        64,
     );
     assert_calm(&outcomes);
-    let (shown, others): (Vec<_>, Vec<_>) = outcomes.iter().partition(|o| o.shows_something());
-    for other in &others {
-        models::say(&format!("    {}", other.reason()));
+    outcomes
+        .iter()
+        .for_each(|outcome| models::say(&outcome.row()));
+    for outcome in &outcomes {
+        // A file may have nothing that luch draws, and says so; whatever it draws is seen.
+        let reason = outcome.reason();
+        let is_accepted = reason.contains("has nothing to draw");
+        assert!(outcome.shows_something() || is_accepted, "{reason}");
     }
-    assert!(
-        shown.len() >= others.len(),
-        "{} of {} show anything",
-        shown.len(),
-        outcomes.len()
-    );
 }
 
 /// Loads and renders every model in `folders`, and tells what came of it; nothing, and a line that says so, where a
@@ -130,6 +129,19 @@ fn drawn(file: &Path, side: u32) -> Result<Drawn, String> {
 impl Outcome {
     fn shows_something(&self) -> bool {
         matches!(self.result, Ok(Drawn { blank: false, .. }))
+    }
+
+    /// A line of the table: what came of it, in how much time, with how many kinds of warnings.
+    fn row(&self) -> String {
+        let (seconds, file) = (self.time.as_secs_f64(), self.file.display());
+        match &self.result {
+            Ok(Drawn {
+                blank: false,
+                warnings,
+                ..
+            }) => format!("    {seconds:5.1} s  {:2} warnings  {file}", warnings.len()),
+            _ => format!("    {seconds:5.1} s  NO PICTURE   {}", self.reason()),
+        }
     }
 
     /// Why nothing is seen.

@@ -15,4 +15,5 @@ mod load_obj;
 mod load_scene_file;
 mod models;
 mod output;
+mod refraction;
 mod study;

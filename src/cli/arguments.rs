@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+use super::animation::AnimationArguments;
 use super::reading::Reading;
 use super::study::StudyArguments;
 use super::values::{self, BackgroundValue, Size, whole_number};
@@ -117,6 +118,10 @@ pub(super) struct RenderArguments {
     #[arg(long, value_enum, value_name = "MODEL")]
     pub(super) shading: Option<ShadingValue>,
 
+    /// List the model's cameras, and render nothing
+    #[arg(long)]
+    pub(super) list_cameras: bool,
+
     /// A camera of the model, by name or by index from 0
     #[arg(long, value_name = "NAME|INDEX", conflicts_with_all = ["eye", "target"], value_parser = NonEmptyStringValueParser::new())]
     pub(super) camera: Option<String>,
@@ -132,6 +137,9 @@ pub(super) struct RenderArguments {
     /// The vertical field of view [default: the camera's; 40 with --eye, 35 for a framed model]
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = values::field_of_view)]
     pub(super) fov: Option<f64>,
+
+    #[command(flatten)]
+    pub(super) animation: AnimationArguments,
 
     /// Threads to use [default: all cores]
     #[arg(short, long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(1..=1024))]
@@ -176,9 +184,6 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::leaf_size)]
     pub(super) leaf_size: Option<NonZeroU8>,
 
-    #[command(flatten)]
-    pub(super) reading: Reading,
-
     /// Say more: the causes of an error, each file that was read
     #[arg(short, long, conflicts_with = "quiet")]
     pub(super) verbose: bool,
@@ -190,6 +195,9 @@ pub(super) struct RenderArguments {
     /// Print the summary as JSON
     #[arg(long)]
     pub(super) json: bool,
+
+    #[command(flatten)]
+    pub(super) reading: Reading,
 }
 
 impl RenderArguments {
@@ -206,13 +214,15 @@ pub(super) fn is_stdout(path: &Path) -> bool {
 
 /// Everything `luch info` can be told.
 #[derive(Args, Debug)]
-#[command(after_help = "Examples:\n  luch info helmet.glb\n  luch info helmet.glb --json")]
+#[command(
+    after_help = "Examples:\n  luch info helmet.glb\n  luch info helmet.glb --json\n  luch info shop.glb --scene Cellar"
+)]
 pub(super) struct InfoArguments {
     /// A .glb, .gltf, .obj or .toml file
     pub(super) input: PathBuf,
 
     #[command(flatten)]
-    pub(super) reading: Reading,
+    pub(super) animation: AnimationArguments,
 
     /// Print it as JSON
     #[arg(long)]
@@ -221,6 +231,9 @@ pub(super) struct InfoArguments {
     /// Say the causes of an error
     #[arg(short, long)]
     pub(super) verbose: bool,
+
+    #[command(flatten)]
+    pub(super) reading: Reading,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

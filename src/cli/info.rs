@@ -1,5 +1,6 @@
 //! `luch info`: what is in a file, and what luch makes of it.
 
+mod animation;
 mod model;
 mod scene_file;
 
@@ -42,7 +43,10 @@ type Line = (&'static str, String);
 
 /// Tells what is in a file.
 pub(super) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
-    let options = arguments.reading.options();
+    let options = load::Options {
+        animation: arguments.animation.choice(),
+        ..arguments.reading.options()
+    };
     let asset = load::open(&arguments.input, &options).map_err(Failure::usage_or_scene)?;
     let viewpoint = Viewpoint {
         aspect: 1.0,
@@ -52,7 +56,7 @@ pub(super) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         exposure: None,
     };
     let (scene, _) = asset
-        .scene(0.0, &viewpoint)
+        .scene(arguments.animation.time(), &viewpoint)
         .map_err(Failure::usage_or_scene)?;
     let info = Info::of(&asset, &scene);
     if arguments.json {

@@ -6,7 +6,7 @@ use super::outputs::Outputs;
 use super::progress::{self, State};
 use super::summary::{self, Done, Seconds, Summary};
 use super::values::{BackgroundValue, Size};
-use super::{Failure, command_line};
+use super::{Failure, cameras, command_line};
 use glam::Vec3;
 use luch::Error;
 use luch::accel::{self, Accel, Isa, Layout};
@@ -35,21 +35,19 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
 fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let input = arguments.input.as_deref();
     let name = input.unwrap_or(Path::new(FIGURE_4_NAME));
+    if arguments.list_cameras {
+        return cameras::list(arguments);
+    }
     let accel_options = accel_options(arguments)?;
     let outputs = Outputs::claim(arguments, name, &Interrupt::watch())?;
 
-    let options = arguments.reading.options();
     let start = Instant::now();
-    let asset = match input {
-        Some(path) => load::open(path, &options),
-        None => load::scene_file::parse(FIGURE_4, name, &options),
-    };
-    let asset = asset.map_err(Failure::usage_or_scene)?;
+    let mut asset = open(arguments)?;
     outputs.spare(&asset.files)?;
     let settings = settings(arguments, &asset)?;
     let viewpoint = viewpoint(arguments, &settings)?;
     let (scene, choices) = asset
-        .scene(0.0, &viewpoint)
+        .take_scene(arguments.animation.time(), &viewpoint)
         .map_err(Failure::usage_or_scene)?;
     // A picture is encoded beside the film.
     let room = asset.check_film(&scene, 2 * settings.film_bytes());
@@ -89,6 +87,19 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
         seconds,
     };
     Summary::of(done).print(arguments)
+}
+
+/// The file, or the paper's figure 4.
+pub(super) fn open(arguments: &RenderArguments) -> Result<Asset, Failure> {
+    let options = load::Options {
+        animation: arguments.animation.choice(),
+        ..arguments.reading.options()
+    };
+    match &arguments.input {
+        Some(path) => load::open(path, &options),
+        None => load::scene_file::parse(FIGURE_4, Path::new(FIGURE_4_NAME), &options),
+    }
+    .map_err(Failure::usage_or_scene)
 }
 
 /// The arguments, where they are silent the file, where that is the defaults.

@@ -65,7 +65,12 @@ fn effort(common: &Common) -> Result<Effort, Failure> {
 fn of_bvh(arguments: &arguments::BvhArguments) -> Result<Task<'_>, Failure> {
     let common = &arguments.common;
     let effort = effort(common)?;
-    let subject = Subject::open(&arguments.model, arguments.camera.as_deref(), effort.size)?;
+    let subject = Subject::open(
+        &arguments.model,
+        arguments.camera.as_deref(),
+        effort.size,
+        &arguments.common.reading,
+    )?;
     let all = if common.quick || effort.budget <= Effort::QUICK.budget {
         bvh::Choices::quick()
     } else {
@@ -98,7 +103,12 @@ fn of_scaling(arguments: &arguments::ScalingArguments) -> Result<Task<'_>, Failu
     let options = usual_options()?;
     let (subject, cases) = match &arguments.model {
         Some(model) => {
-            let subject = Subject::open(model, arguments.camera.as_deref(), effort.size)?;
+            let subject = Subject::open(
+                model,
+                arguments.camera.as_deref(),
+                effort.size,
+                &arguments.common.reading,
+            )?;
             let resized = subject.resized();
             let shapes = [subject.name.clone()];
             let cases = scaling::cases(&shapes, &arguments.counts, &options, resized);
@@ -132,8 +142,13 @@ fn of_samples(arguments: &arguments::SamplesArguments) -> Result<Task<'_>, Failu
     if common.size.is_none() {
         effort.size = samples::SIZE;
     }
-    let subject = match &arguments.scene {
-        Some(scene) => Subject::open(scene, arguments.camera.as_deref(), effort.size)?,
+    let subject = match &arguments.input {
+        Some(input) => Subject::open(
+            input,
+            arguments.camera.as_deref(),
+            effort.size,
+            &arguments.common.reading,
+        )?,
         None => Subject::figure_4(effort.size)?,
     };
     let options = usual_options()?;
@@ -154,7 +169,12 @@ fn of_samples(arguments: &arguments::SamplesArguments) -> Result<Task<'_>, Failu
 fn of_rays(arguments: &arguments::RaysArguments) -> Result<Task<'_>, Failure> {
     let common = &arguments.common;
     let effort = effort(common)?;
-    let subject = Subject::open(&arguments.model, arguments.camera.as_deref(), effort.size)?;
+    let subject = Subject::open(
+        &arguments.model,
+        arguments.camera.as_deref(),
+        effort.size,
+        &arguments.common.reading,
+    )?;
     let plan = Plan {
         cases: rays::cases(&subject.source, &kernels(arguments.kernels.clone())?),
         measures: rays::MEASURES.to_vec(),

@@ -1,6 +1,7 @@
 //! What a render says of itself: in words, or as JSON.
 
 use super::arguments::RenderArguments;
+use super::asks::Asked;
 use super::{Failure, print};
 use indicatif::{HumanBytes, HumanCount};
 use luch::accel::Accel;
@@ -61,6 +62,8 @@ pub(super) struct Summary {
     exposure: f32,
     choices: Vec<String>,
     warnings: Vec<String>,
+    /// What the models ask for, by what luch does with it.
+    asks: Asked,
     scene: SceneCounts,
     bvh: Bvh,
     rays: Rays,
@@ -93,6 +96,7 @@ struct Rays {
     transparent: u64,
     shadow: u64,
     mirror: u64,
+    refracted: u64,
     total: u64,
     /// Of the total, those that stopped before they had passed every transparent layer.
     lost_in_layers: u64,
@@ -130,6 +134,7 @@ impl Summary {
             exposure: done.options.exposure,
             choices: done.choices.lines.clone(),
             warnings,
+            asks: Asked::of(asset),
             scene: SceneCounts {
                 triangles: u64::from(scene.primitive_count()) - (spheres + planes) as u64,
                 spheres,
@@ -171,13 +176,14 @@ impl Summary {
             render,
             write,
         } = self.seconds;
-        let mut lines = vec![
+        let mut lines: Vec<String> = self.asks.in_words().into_iter().collect();
+        lines.extend([
             format!("{}, {}", self.scene.in_words(), self.bvh.in_words()),
             self.rays.in_words(),
             format!(
                 "load {load:.2} s, build {build:.2} s, render {render:.2} s, write {write:.2} s"
             ),
-        ];
+        ]);
         lines.extend(self.outputs.iter().map(|output| format!("wrote {output}")));
         lines
     }
@@ -215,6 +221,7 @@ impl Rays {
             transparent: statistics.transparent_rays,
             shadow: statistics.shadow_rays,
             mirror: statistics.mirror_rays,
+            refracted: statistics.refracted_rays,
             total,
             lost_in_layers: statistics.lost_in_layers,
             millions_per_second: total as f64 / 1e6 / seconds,
@@ -228,6 +235,7 @@ impl Rays {
             (self.transparent, "behind transparent surfaces"),
             (self.shadow, "shadow"),
             (self.mirror, "mirror"),
+            (self.refracted, "refracted"),
         ];
         let kinds = kinds.iter().filter(|(count, _)| *count > 0);
         let kinds: Vec<String> = kinds

@@ -133,6 +133,14 @@ pub(super) fn layers(text: &str) -> Result<Layers, String> {
     }
 }
 
+/// A moment in seconds.
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
+    let seconds: Option<f64> = text.parse().ok();
+    seconds
+        .filter(|seconds| *seconds >= 0.0 && seconds.is_finite())
+        .ok_or_else(|| "expected seconds, 0 or more".to_owned())
+}
+
 /// A field of view in degrees.
 pub(super) fn field_of_view(text: &str) -> Result<f64, String> {
     let angle = text

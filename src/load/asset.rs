@@ -1,6 +1,7 @@
 //! What a file holds, before a choice of camera and time makes a scene of it.
 
-use super::viewpoint::{self, Choices, Viewpoint};
+use super::pose::{Pose, PosedMeshes};
+use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
 use super::{Budget, Model, OutOfMemory, Warnings};
 use crate::Error;
 use crate::camera::Camera;
@@ -83,39 +84,98 @@ pub struct PictureDefaults {
 }
 
 impl Asset {
-    /// The scene that a viewpoint sees, `time` seconds into the asset's animation, and what was chosen where neither
-    /// the file nor the user said. Animation is not read yet, so every time shows the same.
+    /// The scene that a viewpoint sees, `time` seconds into the animations that it was opened with, and what was chosen
+    /// where neither the file nor the user said. Before an animation's first key and after its last, it stands still.
     ///
     /// # Errors
     ///
     /// There is no camera of the wanted name, or what the file says makes no scene.
-    pub fn scene(&self, _time: f64, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
-        let mut choices = Choices::default();
-        // What is described is a copy of what was read.
+    pub fn scene(&self, time: f64, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
         let copy = |placed: &PlacedModel| placed.model.meshes.iter().map(Mesh::bytes).sum::<u64>();
         let copies = self.models.iter().map(copy).sum();
         let short = |problem: OutOfMemory| problem.of(&self.file, "the scene");
         self.budget.check(copies).map_err(short)?;
+        let mut described = self.described(time);
+        for (placed, places) in self.models.iter().zip(&described.places) {
+            let meshes = placed.model.meshes.iter().cloned();
+            fill(&mut described.scene.meshes, places, meshes);
+        }
+        self.seen(described, viewpoint)
+    }
+
+    /// The same without a copy: the meshes that are shown as they are go into the scene, and the asset makes no other. What
+    /// else is known of the file stays here.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Asset::scene`].
+    pub fn take_scene(
+        &mut self,
+        time: f64,
+        viewpoint: &Viewpoint,
+    ) -> Result<(Scene, Choices), Error> {
+        let mut described = self.described(time);
+        for (placed, places) in self.models.iter_mut().zip(&described.places) {
+            let meshes = placed.model.meshes.iter_mut().map(std::mem::take);
+            fill(&mut described.scene.meshes, places, meshes);
+        }
+        self.seen(described, viewpoint)
+    }
+
+    /// What stands where at a time; the meshes that models show as they are lack.
+    fn described(&self, time: f64) -> Described {
         let placeholder = Camera::looking_at(Vec3::Z, Vec3::ZERO, Vec3::Y, 1.0);
-        let mut description = SceneDescription {
+        let mut scene = SceneDescription {
             materials: self.materials.clone(),
             spheres: self.spheres.clone(),
             planes: self.planes.clone(),
             lights: self.lights.clone(),
             ..SceneDescription::empty(placeholder)
         };
-        self.models
+        let mut choices = Choices::default();
+        let poses = self.poses(time);
+        let places = poses
             .iter()
-            .for_each(|placed| placed.add_to(&mut description));
-        description.camera = viewpoint::camera(self, viewpoint, &description, &mut choices)?;
-        viewpoint::light(self, viewpoint, &mut description, &mut choices);
-        description.background = viewpoint::background(self, viewpoint, &mut choices);
+            .map(|(placed, pose)| placed.add_to(pose, &mut scene, &mut choices))
+            .collect();
+        Described {
+            scene,
+            places,
+            cameras: viewpoint::cameras(&poses).collect(),
+            choices,
+        }
+    }
+
+    /// The scene of what stands there, with a camera, lights and a background.
+    fn seen(&self, described: Described, viewpoint: &Viewpoint) -> Result<(Scene, Choices), Error> {
+        let Described {
+            mut scene,
+            cameras,
+            mut choices,
+            ..
+        } = described;
+        scene.camera = viewpoint::camera(self, &cameras, viewpoint, &scene, &mut choices)?;
+        viewpoint::light(self, viewpoint, &mut scene, &mut choices);
+        scene.background = viewpoint::background(self, viewpoint, &mut choices);
         let in_file = |problem| Error::Scene {
             file: self.file.clone(),
             problem,
         };
-        let scene = Scene::new_within(description, self.budget.left()).map_err(in_file)?;
+        let scene = Scene::new(scene).map_err(in_file)?;
         Ok((scene, choices))
+    }
+
+    /// The cameras of its models as they stand at the beginning, in the order in which a user may ask for them by index.
+    pub fn cameras(&self) -> Vec<PlacedCamera> {
+        viewpoint::cameras(&self.poses(0.0)).collect()
+    }
+
+    /// Each model, and its pose at a time.
+    pub(super) fn poses(&self, time: f64) -> Vec<(&PlacedModel, Pose<'_>)> {
+        let models = self.models.iter();
+        models
+            .map(|placed| (placed, Pose::at(&placed.model, time)))
+            .collect()
     }
 
     /// Finds whether a film of `bytes` fits into what the asset and its scene leave.
@@ -153,30 +213,58 @@ impl Asset {
     }
 }
 
+impl From<Model> for Asset {
+    /// A model by itself, at its own place, with as much memory as luch takes where nobody says how much.
+    fn from(model: Model) -> Asset {
+        Asset::of_model(model, Budget::default())
+    }
+}
+
+/// What stands where at a moment.
+struct Described {
+    scene: SceneDescription,
+    /// Of each mesh of each model, which of the scene's it is to be, if it is shown as it is.
+    places: Vec<Vec<Option<u32>>>,
+    cameras: Vec<PlacedCamera>,
+    choices: Choices,
+}
+
+/// Puts meshes where they lack.
+fn fill(scene: &mut [Mesh], places: &[Option<u32>], meshes: impl Iterator<Item = Mesh>) {
+    for (mesh, place) in meshes.zip(places) {
+        if let Some(place) = place.and_then(|place| scene.get_mut(place as usize)) {
+            *place = mesh;
+        }
+    }
+}
+
 impl PlacedModel {
-    /// Adds what the model's nodes place.
-    fn add_to(&self, scene: &mut SceneDescription) {
+    /// Adds what the model's nodes place in a pose. Of each of its meshes, which of the scene's it is to be: those are
+    /// empty yet.
+    fn add_to(
+        &self,
+        pose: &Pose,
+        scene: &mut SceneDescription,
+        choices: &mut Choices,
+    ) -> Vec<Option<u32>> {
         let model = &self.model;
-        let [first_material, first_texture, first_mesh] = [
-            scene.materials.len(),
-            scene.textures.len(),
-            scene.meshes.len(),
-        ]
-        .map(|length| length as u32);
+        let [first_material, first_texture] =
+            [scene.materials.len(), scene.textures.len()].map(|length| length as u32);
         scene.textures.extend_from_slice(&model.textures);
-        scene.meshes.extend_from_slice(&model.meshes);
         scene
             .materials
-            .extend(model.materials.iter().map(|material| {
+            .extend(pose.materials.iter().map(|material| {
                 let mut material = material.clone();
                 material
                     .textures_mut()
                     .for_each(|used| used.texture += first_texture);
                 material
             }));
-        for (node, to_model) in model.placed_nodes() {
-            let to_world = self.to_world * to_model;
-            if let Some(light) = node.light.and_then(|light| model.lights.get(light)) {
+        let mut meshes = PosedMeshes::of(pose);
+        for posed in pose.nodes.iter().filter(|posed| posed.is_visible) {
+            let node = posed.node;
+            let to_world = self.to_world * posed.to_model;
+            if let Some(light) = node.light.and_then(|light| pose.lights.get(light)) {
                 let name = if light.name.is_empty() {
                     &node.name
                 } else {
@@ -188,16 +276,38 @@ impl PlacedModel {
                     ..carried
                 });
             }
+            if let Some(analytic) = &node.analytic {
+                let material = self.material.unwrap_or(first_material + analytic.material);
+                analytic.add_to(scene, &node.name, material, to_world);
+            }
             let parts = node
                 .shape
                 .and_then(|shape| model.shapes.get(shape))
                 .map_or(&[][..], |shape| &shape.parts);
-            scene.instances.extend(parts.iter().map(|part| Instance {
-                name: node.name.clone(),
-                mesh: first_mesh + part.mesh,
-                material: self.material.unwrap_or(first_material + part.material),
-                to_world,
-            }));
+            for part in parts {
+                let (mesh, to_model) = meshes.place(posed, part, &mut scene.meshes);
+                for to_model in node.places(to_model) {
+                    scene.instances.push(Instance {
+                        name: node.name.clone(),
+                        mesh,
+                        material: self.material.unwrap_or(first_material + part.material),
+                        to_world: self.to_world * to_model,
+                    });
+                }
+            }
         }
+        for (count, what) in [(pose.nowhere, "node"), (meshes.left_out, "triangle")] {
+            if count > 0 {
+                choices.lines.push(format!(
+                    "pose: {count} {what}{} whose place is not of finite numbers then",
+                    if count == 1 {
+                        " is left out,"
+                    } else {
+                        "s are left out,"
+                    }
+                ));
+            }
+        }
+        meshes.own
     }
 }

@@ -1,4 +1,4 @@
-//! glTF 2.0, static: `.gltf` with its buffers and images beside it or inside it, and `.glb`.
+//! glTF 2.0: `.gltf` with its buffers and images beside it or inside it, and `.glb`.
 //!
 //! Crate `gltf` gives the typed document; what the document points at is read here, with bounds of our own: the crate
 //! trusts files, and luch opens any. Each extension has a file of its own, which `extensions.rs` lists.
@@ -6,22 +6,50 @@
 //! Parts of a file without a name are called by their index in it, from 0, as the file itself does.
 
 mod accessors;
+mod animation_pointer;
+mod animations;
+mod asks;
 mod base64;
 mod buffers;
 mod cameras;
 mod container;
 mod document;
+mod draco;
+mod elements;
 mod emissive_strength;
 mod extensions;
 mod images;
+mod implicit_shapes;
 mod json;
 mod lights_punctual;
 mod materials;
+mod materials_anisotropy;
+mod materials_clearcoat;
+mod materials_diffuse_transmission;
+mod materials_dispersion;
+mod materials_extensions;
+mod materials_ior;
+mod materials_iridescence;
+mod materials_sheen;
+mod materials_specular;
+mod materials_specular_glossiness;
+mod materials_transmission;
 mod materials_unlit;
+mod materials_variants;
+mod materials_volume;
+mod mesh_gpu_instancing;
+mod mesh_quantization;
 mod meshes;
+mod meshopt;
+mod morph_targets;
+mod node_visibility;
 mod nodes;
+mod notes;
+mod poses;
 mod primitive_modes;
 mod primitives;
+mod skins;
+mod sparse;
 mod texture_basisu;
 mod texture_info;
 mod texture_transform;
@@ -33,7 +61,10 @@ use super::{Budget, Facts, Model, Options, Warnings, budget, files};
 use crate::Error;
 use buffers::Buffers;
 use document::{Document, one_line};
+use implicit_shapes::Shapes;
+use materials_variants::Variants;
 use nodes::Contents;
+use std::collections::BTreeMap;
 use std::path::Path;
 use textures::Textures;
 
@@ -69,18 +100,33 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
     let extensions = extensions::check(&document, &mut warnings)?;
     let buffers = Buffers::read(&document, container.binary)?;
 
-    let used = materials::textures_used(&document);
+    let variants = Variants::read(&document, &mut warnings)?;
+
+    let extended = materials_extensions::of_materials(&document, &mut warnings);
+    let used = materials::textures_used(&document, &extended);
     let mut textures = Textures::decode(&document, &buffers, &used, &mut warnings);
-    let materials = materials::all(&document, &mut textures, &mut warnings)?;
-    let geometry = meshes::all(&document, &buffers, &materials, &mut warnings)?;
+    let materials = materials::all(&document, &extended, &mut textures, &mut warnings)?;
+    let geometry = meshes::all(&document, &buffers, &materials, &variants, &mut warnings)?;
     let (cameras, camera_indices) = compact(cameras::all(&document, &mut warnings));
     let (lights, light_indices) = compact(lights_punctual::all(&document, &mut warnings));
+    let has_meshes = geometry.shapes.iter().any(|shape| !shape.parts.is_empty());
+    let implicit = Shapes::read(&document, materials.len(), !has_meshes, &mut warnings);
+    let (skins, skin_indices) = compact(skins::all(&document, &buffers, &mut warnings));
     let contents = Contents {
-        meshes: geometry.shapes.len(),
+        shapes: &geometry.shapes,
+        cameras: &camera_indices,
+        lights: &light_indices,
+        implicit: &implicit,
+        skins: &skin_indices,
+    };
+    let instancing = mesh_gpu_instancing::Reader::new(&document, &buffers);
+    let tree = nodes::read(&document, &contents, instancing, &mut warnings)?;
+
+    let places = animations::Places {
         cameras: &camera_indices,
         lights: &light_indices,
     };
-    let tree = nodes::read(&document, &contents, &mut warnings)?;
+    let (animations, motion) = animations::read(&document, &buffers, &places, &mut warnings);
 
     let root = &document.root;
     let name = |name: &Option<String>| name.clone().unwrap_or_default();
@@ -91,8 +137,10 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
         points: geometry.points,
         lines: geometry.lines,
         textures: textures.facts,
-        animations: root.animations.iter().map(|a| name(&a.name)).collect(),
-        extensions,
+        animations,
+        variants: variants.names,
+        asks: asks::all(&document, extensions),
+        notes: notes::all(&document),
     };
     let own = [path.to_owned()];
     let mut model = Model {
@@ -105,6 +153,9 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
         roots: tree.roots,
         cameras,
         lights,
+        deformations: BTreeMap::new(),
+        skins,
+        motion,
         facts,
         warnings,
         files: own
@@ -122,11 +173,15 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
     if !model
         .placed_nodes()
         .iter()
-        .any(|(node, _)| node.shape.is_some_and(shows))
+        .any(|(node, _)| node.analytic.is_some() || node.shape.is_some_and(shows))
     {
         return Err(meshes::nothing_to_draw(&document, &geometry));
     }
     (model.meshes, model.shapes) = (geometry.meshes, geometry.shapes);
+    model.deformations = geometry.deformations;
+    let mut warnings = std::mem::take(&mut model.warnings);
+    poses::fit(&mut model, meshes::budget(&buffers), &mut warnings);
+    model.warnings = warnings;
     Ok(model)
 }
 

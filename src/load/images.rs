@@ -6,6 +6,7 @@ mod ktx2;
 mod rgba;
 mod webp;
 
+use crate::load::Budget;
 use crate::texture::Image;
 use common::Format;
 
@@ -32,6 +33,8 @@ pub(super) struct Header {
     width: u32,
     height: u32,
     bytes_a_channel: u64,
+    /// At the peak of decoding.
+    bytes_a_pixel: u64,
 }
 
 /// A decoded image.
@@ -56,12 +59,30 @@ impl Header {
             width,
             height,
             bytes_a_channel,
+            // As it is decoded, and as RGBA.
+            bytes_a_pixel: 8 * bytes_a_channel,
         }
     }
 
     /// How many pixels.
     fn count(&self) -> usize {
         self.width as usize * self.height as usize
+    }
+
+    /// Bytes that decoding takes at its peak.
+    pub(super) fn bytes_to_decode(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height) * self.bytes_a_pixel
+    }
+
+    /// Takes the memory of the decoded image, where there is enough for decoding it.
+    ///
+    /// # Errors
+    ///
+    /// There is not: one line without the image's name.
+    pub(super) fn take(&self, budget: &Budget) -> Result<(), String> {
+        let checked = budget.check(self.bytes_to_decode());
+        let taken = checked.and_then(|()| budget.take(self.bytes_decoded()));
+        taken.map_err(|problem| format!("{} x {} pixels: {problem}", self.width, self.height))
     }
 
     /// Bytes that the decoded image takes.
@@ -85,6 +106,12 @@ pub(super) fn header(name: &str, bytes: &[u8]) -> Result<Header, String> {
             "is {kind}, which is not supported; use PNG or JPEG"
         )),
     }
+}
+
+/// [`decode`] with memory from a budget.
+pub(super) fn decode_within(name: &str, bytes: &[u8], budget: &Budget) -> Result<Decoded, String> {
+    header(name, bytes)?.take(budget)?;
+    decode(name, bytes)
 }
 
 /// Decodes an image file, whose kind its first bytes tell (TGA: `name`'s ending).

@@ -1,12 +1,14 @@
 //! A model as its file has it: one shape for glTF and OBJ, before anything is placed.
 
-use super::Warnings;
+use super::pose::{Deformation, Motion, Skin};
+use super::{Analytic, Warnings};
 use crate::camera::Projection;
 use crate::light::Light;
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::texture::Texture;
 use glam::DAffine3;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A model: meshes, what they are made of, and the tree of nodes that places them.
@@ -32,6 +34,12 @@ pub struct Model {
     pub cameras: Vec<ModelCamera>,
     /// Named by index; each at the origin of its node, shining along -Z.
     pub lights: Vec<Light>,
+    /// Of the meshes whose shape something may change, what does.
+    pub(super) deformations: BTreeMap<u32, Deformation>,
+    /// Named by index.
+    pub(super) skins: Vec<Skin>,
+    /// What the chosen animations do.
+    pub(super) motion: Motion,
     /// What `luch info` tells beside.
     pub facts: Facts,
     /// What was ignored or mended.
@@ -47,6 +55,8 @@ pub struct ModelMesh {
     pub name: String,
     /// The parts that can be drawn.
     pub parts: Vec<Part>,
+    /// How much each morph target counts, where a node does not say it.
+    pub(super) weights: Vec<f32>,
 }
 
 /// Triangles of one material.
@@ -69,10 +79,20 @@ pub struct Node {
     pub to_parent: DAffine3,
     /// An index into the model's shapes.
     pub shape: Option<usize>,
+    /// A sphere or a plane.
+    pub analytic: Option<Analytic>,
+    /// Where the shape stands in the node's space, if not once at its origin: as often as there are transforms.
+    pub instances: Option<Vec<DAffine3>>,
     /// An index into the model's cameras.
     pub camera: Option<usize>,
     /// An index into the model's lights.
     pub light: Option<usize>,
+    /// An index into the model's skins.
+    pub(super) skin: Option<usize>,
+    /// How much each morph target of what it shows counts, where it says it.
+    pub(super) weights: Option<Vec<f32>>,
+    /// Whether it and what is below it is not seen.
+    pub is_hidden: bool,
 }
 
 /// A camera of a file, before a node places it.
@@ -103,10 +123,14 @@ pub struct Facts {
     pub lines: usize,
     /// Each image of the file.
     pub textures: Vec<TextureFacts>,
-    /// Names of animations; empty strings where they have none.
-    pub animations: Vec<String>,
-    /// Each extension the file uses, with what luch does about it.
-    pub extensions: Vec<ExtensionFacts>,
+    /// Each animation of the file, chosen or not.
+    pub animations: Vec<AnimationFacts>,
+    /// Names of the variants of materials; empty strings where they have none.
+    pub variants: Vec<String>,
+    /// What the file asks for, with what luch does about it.
+    pub asks: Vec<Ask>,
+    /// What the file says beside the picture.
+    pub notes: Vec<Note>,
 }
 
 /// An image of a file.
@@ -118,15 +142,44 @@ pub struct TextureFacts {
     pub size: Option<(u32, u32)>,
 }
 
-/// An extension that a file uses.
-#[derive(Clone, Debug)]
-pub struct ExtensionFacts {
-    /// As in `KHR_materials_unlit`.
+/// An animation of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnimationFacts {
+    /// As in the file; may be empty.
     pub name: String,
+    /// When its last key is.
+    pub seconds: f64,
+    /// What it moves, each kind once.
+    pub moves: Vec<Moved>,
+}
+
+/// A kind of thing that an animation moves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Moved {
+    /// As the file calls it: `rotation`, or the last part of a pointer, as in `baseColorFactor`.
+    pub what: String,
+    /// How many channels move one.
+    pub count: usize,
+}
+
+/// Something that a file asks for: an extension, or a part of its format that not every renderer has.
+#[derive(Clone, Debug)]
+pub struct Ask {
+    /// As in `KHR_materials_unlit` or `texture minification filters`.
+    pub what: String,
     /// Whether the file says that it makes no sense without.
     pub required: bool,
     /// What luch does with it.
     pub treatment: Treatment,
+}
+
+/// What a file says beside the picture: `extras` and metadata.
+#[derive(Clone, Debug)]
+pub struct Note {
+    /// Of what, as in `node "chair"`.
+    pub place: String,
+    /// In the file's words.
+    pub json: String,
 }
 
 /// What luch does with what a file asks.
@@ -134,26 +187,45 @@ pub struct ExtensionFacts {
 pub enum Treatment {
     /// What it asks.
     Honoured,
-    /// What comes near to it in a Whitted renderer.
-    Approximated,
+    /// What comes near to it in a Whitted renderer, in these words.
+    Approximated(&'static str),
     /// Nothing.
     Ignored,
 }
 
 impl Treatment {
-    /// As `luch info` calls it.
+    /// One word.
     pub fn name(self) -> &'static str {
         match self {
             Treatment::Honoured => "honoured",
-            Treatment::Approximated => "approximated",
+            Treatment::Approximated(_) => "approximated",
             Treatment::Ignored => "ignored",
         }
     }
 }
 
+impl Node {
+    /// Where the node's shape stands, `to_model` being the node's own place.
+    pub fn places(&self, to_model: DAffine3) -> impl Iterator<Item = DAffine3> {
+        let once = self.instances.is_none().then_some(to_model);
+        let instances = self.instances.iter().flatten();
+        once.into_iter()
+            .chain(instances.map(move |instance| to_model * instance))
+    }
+}
+
 impl Model {
-    /// Every node that is drawn, with its transform to the model's space: the nodes under the roots, parents before
-    /// their children.
+    /// How much each morph target of what a node shows counts without animation.
+    pub(super) fn weights<'a>(&'a self, node: &'a Node) -> &'a [f32] {
+        let of_shape = || Some(self.shapes.get(node.shape?)?.weights.as_slice());
+        match &node.weights {
+            Some(weights) => weights,
+            None => of_shape().unwrap_or_default(),
+        }
+    }
+
+    /// Every node that is drawn, with its transform to the model's space as the file has it: the nodes under the roots,
+    /// parents before their children.
     pub fn placed_nodes(&self) -> Vec<(&Node, DAffine3)> {
         let mut placed = Vec::with_capacity(self.nodes.len());
         // A stack of its own: files have chains of nodes deeper than a thread's stack.

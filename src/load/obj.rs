@@ -8,22 +8,31 @@
 //! What is read how:
 //!
 //! - A shape is an object (`o`), in files without one a group (`g`); a part of it is what has one material.
-//! - A face without normals is flat. Smoothing groups are not followed.
-//! - Colours after a vertex are sRGB, as painting and scanning programs write them.
+//! - A face without normals is flat, or smooth where a smoothing group is on: see `obj/smooth.rs`.
+//! - Colours after a vertex, or after many of them in `#MRGB`, are sRGB, as painting and scanning programs write them.
+//! - What cannot be drawn (points, lines, curves, surfaces) is counted. `call` and `csh`, which have other files read
+//!   and programs started, are ignored like every statement that luch does not know.
 //! - `v` of texture coordinates is turned over: OBJ's image begins at its lower edge, luch's at its upper one.
-//! - Materials: see `obj/materials.rs`. Pictures of heights become normals: see `obj/bump.rs`.
+//! - A face that makes no sense is left out; a vertex that makes no sense is an error, since indices count them.
+//! - Materials: see `obj/materials.rs`, `obj/pbr.rs` and `obj/glass.rs`. Pictures of heights become normals: see
+//!   `obj/bump.rs`.
+//! - Blender 4.5 was the measure: of 170 files that both read, 150 have the same triangles, area, shading normals and
+//!   colours; of the others Blender finds nothing to draw in 9, and differs by triangles without area in 4.
 
 mod bump;
 mod find;
 mod geometry;
+mod glass;
 mod libraries;
 mod map;
 mod materials;
 mod meshes;
 mod mtl;
 mod numbers;
+mod pbr;
 mod polygon;
 mod reader;
+mod smooth;
 mod text;
 mod textures;
 
@@ -32,6 +41,7 @@ use super::{
     text_bytes,
 };
 use crate::Error;
+use find::Finder;
 use geometry::Geometry;
 use libraries::{folder_of, read_libraries};
 use meshes::{Mended, MeshMaker};
@@ -59,7 +69,7 @@ pub(super) fn open_within(path: &Path, options: &Options, budget: &Budget) -> Re
     Ok(model)
 }
 
-fn read(path: &Path, _options: &Options, budget: &Budget) -> Result<Model, Error> {
+fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {
     let bytes = files::read(path, budget)?;
     budget
         .take(text_bytes::of_obj(&bytes))
@@ -74,17 +84,24 @@ fn read(path: &Path, _options: &Options, budget: &Budget) -> Result<Model, Error
     let mut geometry = Geometry::read(&text::plain(&bytes))
         .map_err(|bad| Error::malformed(path, format!("line {}", bad.line), bad.problem))?;
     drop(bytes);
+    smooth::add_normals(&mut geometry);
     let mut model = Model {
         file: path.to_owned(),
         files: vec![path.to_owned()],
         warnings: std::mem::take(&mut geometry.warnings),
         ..Model::default()
     };
-    let material_of = add_materials(&mut model, &geometry, budget);
+    let textures = Textures::new(Finder::new(path, options), budget);
+    let material_of = add_materials(&mut model, &geometry, textures);
     add_shapes(&mut model, &geometry, &material_of);
     if model.shapes.is_empty() {
-        let problem = "has nothing to draw, expected a face with finite vertices";
-        return Err(Error::malformed(path, "", problem));
+        return Err(match geometry.first_dropped {
+            Some(bad) => Error::malformed(path, format!("line {}", bad.line), bad.problem),
+            None => {
+                let problem = "has nothing to draw, expected a face with finite vertices";
+                Error::malformed(path, "", problem)
+            }
+        });
     }
     model.facts = Facts {
         format: "OBJ".into(),
@@ -97,10 +114,15 @@ fn read(path: &Path, _options: &Options, budget: &Budget) -> Result<Model, Error
 }
 
 /// Reads MTLs and textures; for each material that the geometry names, its index in the model. The default comes last.
-fn add_materials(model: &mut Model, geometry: &Geometry, budget: &Budget) -> Vec<u32> {
+fn add_materials(model: &mut Model, geometry: &Geometry, mut textures: Textures) -> Vec<u32> {
     let folder = folder_of(&model.file);
-    let mut textures = Textures::within(budget);
-    let known = read_libraries(model, geometry, &folder, &mut textures.finder, budget);
+    let known = read_libraries(
+        model,
+        geometry,
+        &folder,
+        &mut textures.finder,
+        &textures.budget,
+    );
     let mut indices = Vec::with_capacity(geometry.materials.len());
     for name in &geometry.materials {
         let Some(known) = known.get(name) else {
@@ -183,7 +205,7 @@ fn new_shape(model: &mut Model, name: &str) -> usize {
     let shape = model.shapes.len();
     model.shapes.push(ModelMesh {
         name: name.to_owned(),
-        parts: Vec::new(),
+        ..ModelMesh::default()
     });
     model.roots.push(model.nodes.len());
     model.nodes.push(Node {

@@ -13,8 +13,9 @@ mod picture;
 mod shapes;
 mod source;
 mod table;
+mod transmission;
 
-use super::{Asset, Budget, CameraSource, Model, Options, files, gltf, obj, text_bytes};
+use super::{Asset, Budget, CameraSource, Model, Options, animated, files, gltf, obj, text_bytes};
 use crate::Error;
 use materials::Materials;
 use models::Models;
@@ -57,9 +58,10 @@ pub fn open(path: &Path, options: &Options) -> Result<Asset, Error> {
 /// Those of [`open`], as far as they are not about the file itself.
 pub fn parse(text: &str, path: &Path, options: &Options) -> Result<Asset, Error> {
     let budget = Budget::of(options);
-    parse_with(text, path, &budget, |path| {
+    let asset = parse_with(text, path, &budget, |path| {
         open_model(path, options, &budget)
-    })
+    })?;
+    animated::check(asset, options)
 }
 
 /// [`parse`] with another way to open a model.

@@ -18,7 +18,7 @@ pub(super) struct TooCrowded;
 
 /// Gives `mesh` tangents along +u of texture coordinates `uv_set`, after the `transform` of the normal map: a map that
 /// is turned on the mesh takes its tangents along, as in three.js and in the Khronos viewer (glTF-Sample-Renderer, pull
-/// request 16). Vertices whose corners differ in tangent are split.
+/// request 16). Vertices whose corners differ in tangent are split: which of the old ones each of the new ones was.
 ///
 /// # Errors
 ///
@@ -27,7 +27,7 @@ pub(super) fn add(
     mesh: &mut Mesh,
     uv_set: usize,
     transform: Option<&Mat3>,
-) -> Result<(), TooCrowded> {
+) -> Result<Vec<usize>, TooCrowded> {
     if most_at_a_point(mesh) > MOST_AT_A_POINT {
         return Err(TooCrowded);
     }
@@ -50,8 +50,9 @@ pub(super) fn add(
     let done = generate_tangents(&mut corners);
     let tangents = corners.tangents;
     done.map_err(|_| TooCrowded)?;
-    *mesh = split(std::mem::take(mesh), &tangents);
-    Ok(())
+    let (split, old_vertices) = split(std::mem::take(mesh), &tangents);
+    *mesh = split;
+    Ok(old_vertices)
 }
 
 fn most_at_a_point(mesh: &Mesh) -> u32 {
@@ -167,8 +168,8 @@ fn position(mesh: &Mesh, triangle: usize, corner: usize) -> Vec3 {
     position.copied().unwrap_or_default() + Vec3::ZERO
 }
 
-/// `mesh` with one vertex for each pair of an old vertex and a tangent.
-fn split(mesh: Mesh, tangents: &[[Vec4; 3]]) -> Mesh {
+/// `mesh` with one vertex for each pair of an old vertex and a tangent, and which of the old ones each was.
+fn split(mesh: Mesh, tangents: &[[Vec4; 3]]) -> (Mesh, Vec<usize>) {
     let mut known: HashMap<(u32, [u32; 4]), u32> = HashMap::new();
     let mut old_vertices: Vec<usize> = Vec::with_capacity(mesh.positions.len());
     let mut new = Mesh {
@@ -192,7 +193,7 @@ fn split(mesh: Mesh, tangents: &[[Vec4; 3]]) -> Mesh {
     new.normals = picked(&mesh.normals, &old_vertices);
     new.colors = picked(&mesh.colors, &old_vertices);
     new.uvs = mesh.uvs.map(|set| picked(&set, &old_vertices));
-    new
+    (new, old_vertices)
 }
 
 /// What `which` says, where there is anything.
@@ -219,7 +220,7 @@ mod tests {
     }
 
     fn with_tangents(mut mesh: Mesh) -> Mesh {
-        assert_eq!(add(&mut mesh, 0, None), Ok(()));
+        assert!(add(&mut mesh, 0, None).is_ok());
         mesh
     }
 
@@ -245,7 +246,7 @@ mod tests {
         // KHR_texture_transform with a rotation of a quarter: u' = v, v' = -u. The image's right is the mesh's down.
         let turned = Mat3::from_cols(-Vec3::Y, Vec3::X, Vec3::Z);
         let mut mesh = square();
-        assert_eq!(add(&mut mesh, 0, Some(&turned)), Ok(()));
+        assert!(add(&mut mesh, 0, Some(&turned)).is_ok());
         assert_eq!(mesh.tangents, [Vec4::new(0.0, -1.0, 0.0, 1.0); 4]);
         assert_eq!(mesh.uvs, square().uvs);
     }

@@ -3,14 +3,18 @@
 mod cameras;
 mod lights;
 
-pub(super) use cameras::camera;
+pub use cameras::PlacedCamera;
+pub(super) use cameras::{camera, cameras};
 pub(super) use lights::{carried, light};
 
 use super::Asset;
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::framing::Face;
+use crate::generate;
+use crate::geometry::Triangle;
 use crate::scene::{Background, SceneDescription, Shown};
+use std::sync::Arc;
 
 /// How an asset is to be looked at.
 #[derive(Clone, Debug)]
@@ -97,9 +101,18 @@ fn default_background(asset: &Asset, exposure: f32) -> Rgb {
     }
 }
 
-/// The triangles of a scene, in world space.
+/// The triangles of a scene, in world space, and some on each sphere. Planes have no end, and count for nothing.
 fn faces(scene: &SceneDescription) -> impl Iterator<Item = Face> + Clone {
-    scene.instances.iter().flat_map(|instance| {
+    let ball = Arc::new(generate::icosphere(2));
+    let on_spheres = scene.spheres.iter().flat_map(move |sphere| {
+        let (center, radius) = (sphere.shape.center, sphere.shape.radius);
+        let ball = ball.clone();
+        (0..ball.triangles.len() as u32).map(move |index| Face {
+            triangle: Triangle(ball.triangle(index).0.map(|p| center + p * radius)),
+            double_sided: false,
+        })
+    });
+    let on_meshes = scene.instances.iter().flat_map(|instance| {
         let mesh = &scene.meshes[instance.mesh as usize];
         let double_sided = scene.materials[instance.material as usize].double_sided;
         let to_world = instance.to_world.as_affine3();
@@ -116,5 +129,6 @@ fn faces(scene: &SceneDescription) -> impl Iterator<Item = Face> + Clone {
                 double_sided,
             }
         })
-    })
+    });
+    on_meshes.chain(on_spheres)
 }

@@ -1,6 +1,7 @@
 //! What a description must be before it is a scene.
 
 mod fields;
+mod finish;
 mod things;
 
 use super::{InstanceSpace, PlacedInstance, SceneDescription, SceneError};

@@ -1,15 +1,16 @@
 //! What a material is like at one point: every texture looked up.
 
 use super::Scene;
+use super::microfacets::Seen;
 use super::mix::Vertex;
 use crate::color::Rgb;
 use crate::material::{Alpha, AlphaChannel, AlphaMode, Material, Model, NormalMap, Textured};
-use crate::shade::{Reflectance, metallic_roughness};
+use crate::shade::Reflectance;
 use crate::texture::TextureUse;
 use glam::{Vec3, Vec4};
 
 impl Scene {
-    fn look_up(&self, used: &TextureUse, vertex: &Vertex) -> [f32; 4] {
+    pub(super) fn look_up(&self, used: &TextureUse, vertex: &Vertex) -> [f32; 4] {
         let uv = vertex.uvs[usize::from(used.uv_set != 0)];
         let uv = used
             .transform
@@ -19,7 +20,7 @@ impl Scene {
             .map_or([1.0; 4], |texture| texture.sample(uv))
     }
 
-    fn color(&self, textured: &Textured<Rgb>, vertex: &Vertex) -> Rgb {
+    pub(super) fn color(&self, textured: &Textured<Rgb>, vertex: &Vertex) -> Rgb {
         textured.texture.as_ref().map_or(textured.factor, |used| {
             let [r, g, b, _] = self.look_up(used, vertex);
             textured.factor * Rgb::new(r, g, b)
@@ -53,6 +54,12 @@ impl Scene {
         let [r, g, b, _] = vertex.color;
         let tint = Rgb::new(r, g, b);
         let emission = self.color(&material.emission, vertex);
+        let seen = Seen {
+            vertex,
+            tint,
+            cos_view,
+            emission,
+        };
         match &material.model {
             Model::Phong(phong) => {
                 let diffuse = self.color(&phong.diffuse, vertex) * tint;
@@ -63,26 +70,11 @@ impl Scene {
                     reflectivity: phong.reflectivity,
                     ambient: diffuse,
                     emission,
+                    layers: None,
                 }
             }
-            Model::MetallicRoughness(m) => {
-                let [_, roughness, metallic, _] = m
-                    .metallic_roughness
-                    .as_ref()
-                    .map_or([1.0; 4], |used| self.look_up(used, vertex));
-                let occluded = m
-                    .occlusion
-                    .texture
-                    .as_ref()
-                    .map_or(0.0, |used| 1.0 - self.look_up(used, vertex)[0]);
-                let parameters = metallic_roughness::Parameters {
-                    base_color: self.color(&m.base_color, vertex) * tint,
-                    metallic: m.metallic * metallic,
-                    roughness: m.roughness * roughness,
-                    ambient_access: 1.0 - m.occlusion.factor * occluded,
-                };
-                metallic_roughness::reflectance(parameters, cos_view, emission)
-            }
+            Model::MetallicRoughness(m) => self.metallic_roughness(m, &seen),
+            Model::SpecularGlossiness(m) => self.specular_glossiness(m, &seen),
             Model::Unlit { color } => {
                 let color = self.color(color, vertex) * tint;
                 let dark = Rgb::BLACK;
@@ -94,6 +86,7 @@ impl Scene {
                     reflectivity,
                     ambient,
                     emission: color,
+                    layers: None,
                 }
             }
         }
@@ -136,5 +129,6 @@ pub(super) fn plain(material: &Material) -> Option<Reflectance> {
         reflectivity: phong.reflectivity,
         ambient: phong.diffuse.factor,
         emission: material.emission.factor,
+        layers: None,
     })
 }

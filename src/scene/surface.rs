@@ -1,7 +1,7 @@
 //! From a hit to the surface there.
 
 use super::mix::{Mix, NEUTRAL};
-use super::{InstanceSpace, Primitive, Recent, Scene};
+use super::{InstanceSpace, Primitive, Recent, Scene, Through};
 use crate::geometry::{Hit, SurfacePoint, Triangle};
 use crate::material::{Model, Phong};
 use crate::mesh::normal_matrix;
@@ -18,8 +18,10 @@ pub struct Surface {
     pub normal: Vec3,
     /// Whether light changes it: false for KHR_materials_unlit, whose colour is in `reflectance.emission`.
     pub lit: bool,
-    /// How it answers light.
+    /// How it answers light, if none went through.
     pub reflectance: Reflectance,
+    /// What goes through, where something does.
+    pub through: Option<Through>,
     /// The share of the ray that ends here; 0 where the surface is not there for this ray.
     pub coverage: f32,
 }
@@ -143,7 +145,7 @@ impl Scene {
     #[inline(never)]
     pub fn look(&self, ray: &Ray, hit: &Hit, place: Place, recent: &mut Recent) -> Surface {
         let primitive = self.primitive_near(hit.primitive, recent);
-        let (material, on) = match primitive {
+        let (index, on) = match primitive {
             Primitive::Sphere(sphere) => (self.spheres[sphere].material, None),
             Primitive::Plane(plane) => (self.planes[plane].material, None),
             Primitive::Triangle { instance, triangle } => {
@@ -152,7 +154,7 @@ impl Scene {
                 (instance.material, Some((instance, mix)))
             }
         };
-        let material = self.material(material);
+        let material = self.material(index);
         let vertex = on.as_ref().map_or(NEUTRAL, |(_, mix)| mix.vertex());
         let mut normal = place.normal;
         if let (Some(map), Some((instance, mix))) = (&material.normal_map, &on) {
@@ -165,7 +167,9 @@ impl Scene {
             let bent = self.mapped_normal(map, of_front, tangent, &vertex);
             normal = turned_toward(bent * side, ray.direction);
         }
-        let coverage = if place.front || material.double_sided {
+        // A ray in a body has to find the way out.
+        let is_there = place.front || material.double_sided || material.volume().is_some();
+        let coverage = if is_there {
             self.coverage(&material.alpha, &vertex)
         } else {
             0.0
@@ -186,11 +190,19 @@ impl Scene {
         {
             (reflectance.diffuse, reflectance.ambient) = (checker.color, checker.color);
         }
+        let through = self.through(
+            (index, material),
+            &vertex,
+            &reflectance,
+            place.front,
+            cos_view,
+        );
         Surface {
             place,
             normal,
             lit: !matches!(material.model, Model::Unlit { .. }),
             reflectance,
+            through,
             coverage,
         }
     }
@@ -201,12 +213,7 @@ impl Scene {
         if material.is_opaque() {
             return 1.0;
         }
-        let Primitive::Triangle { instance, triangle } = self.primitive(hit.primitive) else {
-            return self.coverage(&material.alpha, &NEUTRAL);
-        };
-        let mesh = self.mesh(self.instances[instance].mesh);
-        let vertex = Mix::new(mesh, triangle, hit.barycentric).vertex();
-        self.coverage(&material.alpha, &vertex)
+        self.coverage(&material.alpha, &self.vertex(hit))
     }
 }
 

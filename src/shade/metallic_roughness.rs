@@ -1,112 +1,100 @@
-//! From glTF's metallic-roughness parameters to the quantities a Whitted renderer has.
+//! glTF's metallic-roughness parameters.
 //!
 //! | quantity | formula | source |
 //! | --- | --- | --- |
-//! | `alpha` | `roughness^2` | glTF 2.0, appendix B.2.3 |
-//! | `F0` | `mix(0.04, base, metallic)` | glTF 2.0, appendix B.3.5 |
+//! | `F0` | `mix(dielectric F0, base, metallic)` | glTF 2.0, appendix B.3.5 |
+//! | `F90` | `mix(dielectric F90, 1, metallic)` | KHR_materials_specular |
 //! | diffuse `k_d` | `base (1 - metallic)` | glTF 2.0, appendix B.3.5 |
-//! | exponent `s` | `2 / alpha^2 - 2` | Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", sec. 5.2: the Blinn-Phong lobe as wide as Beckmann's of this `alpha` |
-//! | highlight `k_s` | `F0 (s + 2) / 8` | normalised Blinn-Phong `F0 (s + 2) / (8 π)` (Akenine-Möller et al. 2018, "Real-Time Rendering", sec. 9.8), in the paper's units of light, π times less |
-//! | Fresnel `F` | `F0 + (max(1 - roughness, F0) - F0) (1 - n.v)^5` | Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering"; the lower peak of rough surfaces is Lagarde's (2011) |
-//! | reflectivity | `F m`, `m = max(0, 1 - roughness / 0.6)^2` | ours: a sharp mirror stands for the lobe while it is narrow, and is gone where it is wide |
-//! | ambient | `k_d + F (1 - m)` | ours: the rest of the lobe sees the constant ambient light |
+//!
+//! The dielectric's `F0` is 0.04 and its `F90` 1, or what KHR_materials_ior and _specular say. Of the diffuse light luch
+//! keeps what an `F0` of 0.04 would leave; a greater one takes its share, `k_d (1 - max F0) / (1 - 0.04)`.
 
-use super::Reflectance;
+use super::microfacet::{Parameters, f0_of};
 use crate::color::Rgb;
 
-/// The parameters at one point, textures looked up.
+/// What is not metal: how much of the light it reflects.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters {
-    /// Linear base colour.
-    pub base_color: Rgb,
-    /// 0..1.
-    pub metallic: f32,
-    /// Perceptual roughness, 0..1.
-    pub roughness: f32,
-    /// The share of ambient light that arrives, 0..1.
-    pub ambient_access: f32,
+pub struct Dielectric {
+    /// Head-on.
+    pub f0: Rgb,
+    /// At the edge.
+    pub f90: f32,
 }
 
 /// What is reflected head-on by what is not metal: an index of refraction of 1.5.
-const DIELECTRIC_F0: f32 = 0.04;
-/// The least roughness a highlight is reckoned with: a light without extent has none on a perfect mirror.
-const LEAST_HIGHLIGHT_ROUGHNESS: f32 = 0.1;
-/// From this roughness on nothing is mirrored sharply.
-const MIRROR_ENDS_AT: f32 = 0.6;
+const F0: f32 = 0.04;
 
-/// The table in this file's head. `cos_view` is `n . v`, 0..1.
-pub fn reflectance(p: Parameters, cos_view: f32, emission: Rgb) -> Reflectance {
-    let roughness = p.roughness.clamp(0.0, 1.0);
-    let metallic = p.metallic.clamp(0.0, 1.0);
-    let f0 = Rgb::grey(DIELECTRIC_F0).mix(p.base_color, metallic);
-    let diffuse = p.base_color * (1.0 - metallic);
-    let alpha = roughness.max(LEAST_HIGHLIGHT_ROUGHNESS) * roughness.max(LEAST_HIGHLIGHT_ROUGHNESS);
-    let shininess = 2.0 / (alpha * alpha) - 2.0;
-    let fresnel = schlick(f0, roughness, cos_view);
-    let sharp = (1.0 - roughness / MIRROR_ENDS_AT).max(0.0);
-    let mirrored = sharp * sharp;
-    Reflectance {
-        diffuse,
-        specular: f0 * ((shininess + 2.0) / 8.0),
-        shininess,
-        reflectivity: fresnel * mirrored,
-        ambient: (diffuse + fresnel * (1.0 - mirrored)) * p.ambient_access,
-        emission,
+impl Dielectric {
+    /// glTF's own.
+    pub const PLAIN: Dielectric = Dielectric {
+        f0: Rgb::grey(F0),
+        f90: 1.0,
+    };
+
+    /// `min(F0(ior) colour, 1) specular` at `F0`, `specular` at `F90` (KHR_materials_specular, "Interaction with other
+    /// extensions").
+    pub fn new(ior: f32, specular: f32, color: Rgb) -> Dielectric {
+        Dielectric {
+            f0: color.map(|channel| (f0_of(ior) * channel).min(1.0) * specular),
+            f90: specular,
+        }
     }
 }
 
-/// `F0 + (F90 - F0) (1 - n.v)^5`, where `F90 = max(1 - roughness, F0)`.
-fn schlick(f0: Rgb, roughness: f32, cos_view: f32) -> Rgb {
-    let x = 1.0 - cos_view.clamp(0.0, 1.0);
-    let x5 = x * x * x * x * x;
-    f0.map(|f0| f0 + ((1.0 - roughness).max(f0) - f0) * x5)
+/// The table in this file's head.
+pub fn parameters(
+    base_color: Rgb,
+    metallic: f32,
+    roughness: f32,
+    dielectric: Dielectric,
+) -> Parameters {
+    let metallic = metallic.clamp(0.0, 1.0);
+    let left = ((1.0 - dielectric.f0.max_component()) / (1.0 - F0)).min(1.0);
+    Parameters {
+        diffuse: base_color * (1.0 - metallic) * left,
+        through: Rgb::BLACK,
+        f0: dielectric.f0.mix(base_color, metallic),
+        f90: dielectric.f90 + (1.0 - dielectric.f90) * metallic,
+        roughness,
+        ambient_access: 1.0,
+        film: None,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shade::{Reflectance, microfacet};
 
-    fn parameters(metallic: f32, roughness: f32) -> Parameters {
-        Parameters {
-            base_color: Rgb::new(1.0, 0.5, 0.25),
-            metallic,
-            roughness,
-            ambient_access: 1.0,
-        }
+    const ORANGE: Rgb = Rgb::new(1.0, 0.5, 0.25);
+
+    fn reflectance(metallic: f32, roughness: f32, cos_view: f32) -> Reflectance {
+        let p = parameters(ORANGE, metallic, roughness, Dielectric::PLAIN);
+        microfacet::reflectance(p, cos_view, Rgb::BLACK)
     }
 
     #[test]
     fn a_smooth_metal_is_a_mirror_of_its_colour_with_no_diffuse_light() {
-        let gold = reflectance(parameters(1.0, 0.0), 1.0, Rgb::BLACK);
-        assert_eq!(
-            (gold.diffuse, gold.reflectivity),
-            (Rgb::BLACK, Rgb::new(1.0, 0.5, 0.25))
-        );
+        let gold = reflectance(1.0, 0.0, 1.0);
+        assert_eq!((gold.diffuse, gold.reflectivity), (Rgb::BLACK, ORANGE));
     }
 
     #[test]
     fn a_smooth_plastic_mirrors_four_per_cent_head_on_and_everything_at_the_edge() {
-        let at = |cos| {
-            reflectance(parameters(0.0, 0.0), cos, Rgb::BLACK)
-                .reflectivity
-                .g
-        };
+        let at = |cos| reflectance(0.0, 0.0, cos).reflectivity.g;
         assert!((at(1.0) - 0.04).abs() < 1e-6);
         assert!((at(0.0) - 1.0).abs() < 1e-6);
     }
 
     #[test]
     fn a_rough_surface_does_not_mirror() {
-        assert_eq!(
-            reflectance(parameters(1.0, 0.6), 0.5, Rgb::BLACK).reflectivity,
-            Rgb::BLACK
-        );
+        assert_eq!(reflectance(1.0, 0.6, 0.5).reflectivity, Rgb::BLACK);
     }
 
     #[test]
     fn roughness_one_half_has_the_exponent_of_its_alpha() {
         // alpha = 1/4: 2 * 16 - 2.
-        let surface = reflectance(parameters(0.0, 0.5), 1.0, Rgb::BLACK);
+        let surface = reflectance(0.0, 0.5, 1.0);
         assert_eq!(surface.shininess, 30.0);
         assert!((surface.specular.r - 0.04 * 32.0 / 8.0).abs() < 1e-6);
     }
@@ -115,8 +103,66 @@ mod tests {
     fn occlusion_keeps_ambient_light_away() {
         let p = Parameters {
             ambient_access: 0.0,
-            ..parameters(0.0, 0.9)
+            ..parameters(ORANGE, 0.0, 0.9, Dielectric::PLAIN)
         };
-        assert_eq!(reflectance(p, 1.0, Rgb::BLACK).ambient, Rgb::BLACK);
+        let dark = microfacet::reflectance(p, 1.0, Rgb::BLACK);
+        assert_eq!(dark.ambient, Rgb::BLACK);
+    }
+
+    /// The formulas as they were before extensions came: the oracle.
+    fn without_extensions(metallic: f32, roughness: f32, cos_view: f32) -> Reflectance {
+        let f0 = Rgb::grey(0.04).mix(ORANGE, metallic);
+        let diffuse = ORANGE * (1.0 - metallic);
+        let alpha = roughness.max(0.1) * roughness.max(0.1);
+        let shininess = 2.0 / (alpha * alpha) - 2.0;
+        let x = 1.0 - cos_view;
+        let x5 = x * x * x * x * x;
+        let fresnel = f0.map(|f0| f0 + ((1.0 - roughness).max(f0) - f0) * x5);
+        let sharp = (1.0 - roughness / 0.6f32).max(0.0);
+        let mirrored = sharp * sharp;
+        Reflectance {
+            diffuse,
+            specular: f0 * ((shininess + 2.0) / 8.0),
+            shininess,
+            reflectivity: fresnel * mirrored,
+            ambient: diffuse + fresnel * (1.0 - mirrored),
+            ..Reflectance::BLACK
+        }
+    }
+
+    #[test]
+    fn a_material_without_extensions_has_the_same_bits_as_ever() {
+        let steps = || (0..=20).map(|step| step as f32 / 20.0);
+        for metallic in steps() {
+            for roughness in steps() {
+                for cos in steps() {
+                    assert_eq!(
+                        reflectance(metallic, roughness, cos),
+                        without_extensions(metallic, roughness, cos)
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_specular_colour_is_cut_off_before_the_specular_factor_scales_it() {
+        // min(0.04 * 50, 1) * 0.5, min(0.04 * 10, 1) * 0.5, 0.
+        let d = Dielectric::new(1.5, 0.5, Rgb::new(50.0, 10.0, 0.0));
+        assert!((d.f0.r - 0.5).abs() < 1e-6 && (d.f0.g - 0.2).abs() < 1e-6 && d.f0.b == 0.0);
+        assert_eq!(d.f90, 0.5);
+    }
+
+    #[test]
+    fn without_specular_a_dielectric_is_matt_and_a_metal_as_before() {
+        let matt = Dielectric::new(1.5, 0.0, Rgb::WHITE);
+        let at = |metallic, cos| {
+            microfacet::reflectance(parameters(ORANGE, metallic, 0.0, matt), cos, Rgb::BLACK)
+        };
+        assert_eq!(at(0.0, 0.1).reflectivity, Rgb::BLACK);
+        assert_eq!(
+            at(1.0, 0.1).reflectivity,
+            reflectance(1.0, 0.0, 0.1).reflectivity
+        );
     }
 }

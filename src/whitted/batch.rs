@@ -5,7 +5,7 @@ use crate::color::Rgb;
 use crate::geometry::{Hit, SurfacePoint, Triangle};
 use crate::light::Illumination;
 use crate::ray::{AT_LIGHT, Ray};
-use crate::scene::{Place, Recent, Scene, Surface};
+use crate::scene::{Place, Recent, Scene, Surface, Through};
 use crate::shade::Reflectance;
 use glam::Vec3;
 
@@ -14,13 +14,20 @@ use glam::Vec3;
 pub(super) struct Path {
     /// Which sample of the batch.
     pub(super) sample: u32,
-    /// Mirrors so far; 0 for what the camera sees directly.
-    pub(super) bounces: u32,
-    /// Transparent layers so far.
-    pub(super) layers: u32,
+    /// Mirrors so far, at most [`super::Rules::max_depth`].
+    pub(super) bounces: u16,
+    /// Transparent layers and boundaries of bodies so far, at most [`super::MAX_LAYERS`].
+    pub(super) layers: u8,
+    /// Whether it is still on the straight line from the camera.
+    pub(super) direct: bool,
+    /// The material of the body that it travels in, or [`NO_BODY`].
+    pub(super) body: u32,
     /// The share of its light that reaches the camera.
     pub(super) energy: Rgb,
 }
+
+/// Where a path travels in no body.
+pub(super) const NO_BODY: u32 = u32::MAX;
 
 /// Rays under way, and the path that each belongs to.
 #[derive(Debug, Default)]
@@ -38,6 +45,8 @@ impl Paths {
             sample,
             bounces: 0,
             layers: 0,
+            direct: true,
+            body: NO_BODY,
             energy: Rgb::WHITE,
         };
         self.paths.extend((0..camera_rays.len() as u32).map(path));
@@ -82,6 +91,8 @@ pub(super) struct Arrivals {
     pub(super) unknown: Vec<usize>,
     /// Which send on rays.
     pub(super) onward: Vec<usize>,
+    /// Which let light through, and what becomes of it.
+    pub(super) through: Vec<(usize, Through)>,
     /// Of every material, where that is the same everywhere, and then what was looked up.
     pub(super) reflectances: Vec<Reflectance>,
     materials: usize,
@@ -98,6 +109,7 @@ impl Arrivals {
             others: Vec::new(),
             unknown: Vec::new(),
             onward: Vec::new(),
+            through: Vec::new(),
             reflectances: (0..materials as u32).map(plain).collect(),
             materials,
         }
@@ -108,6 +120,7 @@ impl Arrivals {
         self.others.clear();
         self.unknown.clear();
         self.onward.clear();
+        self.through.clear();
         self.reflectances.truncate(self.materials);
     }
 
@@ -177,13 +190,19 @@ impl Arrivals {
         }
     }
 
-    /// Takes note of what was seen at an arrival.
-    pub(super) fn know(&mut self, index: usize, surface: &Surface) {
+    /// Takes note of what was seen at an arrival, and of what goes through it if light `refracts`.
+    pub(super) fn know(&mut self, index: usize, surface: &Surface, refracts: bool) {
         let arrival = &mut self.list[index];
         arrival.coverage = surface.coverage;
         arrival.weight *= surface.coverage;
         arrival.reflectance = self.reflectances.len() as u32;
-        self.reflectances.push(surface.reflectance);
+        self.reflectances.push(match surface.through {
+            Some(through) if refracts => {
+                self.through.push((index, through));
+                through.rest
+            }
+            _ => surface.reflectance,
+        });
         // No light stands before a surface without a normal.
         let lit = surface.lit && surface.coverage > 0.0;
         let normal = if lit { surface.normal } else { Vec3::ZERO };

@@ -2,6 +2,7 @@
 
 use super::batch::{Arrival, Arrivals, Path};
 use super::{MAX_LAYERS, Tracer};
+use crate::color::Rgb;
 use crate::ray::Ray;
 use crate::scene::Place;
 use crate::shade::{Shading, mirror};
@@ -11,16 +12,33 @@ impl Tracer<'_> {
     pub(super) fn reflect(&mut self, arrivals: &Arrivals, index: usize) {
         let arrival = &arrivals.list[index];
         let surface = &arrivals.reflectances[arrival.reflectance as usize];
-        let energy = arrival.weight * surface.reflectivity;
-        if !mirror::matters(energy) || self.rules.shading == Shading::Flat {
+        if self.rules.shading != Shading::Flat {
+            self.mirror(arrivals, index, arrival.weight * surface.reflectivity);
+        }
+    }
+
+    /// Sends on a mirror ray of this energy, as long as it still matters.
+    pub(super) fn mirror(&mut self, arrivals: &Arrivals, index: usize, energy: Rgb) {
+        let path = self.paths.paths[arrivals.list[index].path as usize];
+        let most = self.rules.max_depth.min(u16::MAX.into());
+        if !mirror::matters(energy) || u32::from(path.bounces) >= most {
             return;
         }
-        let path = self.paths.paths[arrival.path as usize];
-        if path.bounces >= self.rules.max_depth {
-            return;
-        }
+        let path = Path {
+            energy,
+            bounces: path.bounces + 1,
+            direct: false,
+            ..path
+        };
+        self.further.push(self.mirror_ray(arrivals, index), path);
+        self.statistics.mirror_rays += 1;
+    }
+
+    /// The mirror ray of an arrival.
+    pub(super) fn mirror_ray(&self, arrivals: &Arrivals, index: usize) -> Ray {
         let Place { point, normal, .. } = arrivals.place(index);
-        let d = self.paths.rays[arrival.path as usize].direction;
+        let path = arrivals.list[index].path as usize;
+        let d = self.paths.rays[path].direction;
         let r = mirror::direction(d, normal);
         // A bent normal can send the ray into the surface: then the surface's own normal says where the mirror is.
         let r = if r.dot(point.normal) > 0.0 {
@@ -28,20 +46,13 @@ impl Tracer<'_> {
         } else {
             mirror::direction(d, point.normal)
         };
-        let ray = Ray::leaving(
+        Ray::leaving(
             point.position,
             point.normal,
             point.error,
             r.normalize_or(r),
             f32::INFINITY,
-        );
-        let path = Path {
-            energy,
-            bounces: path.bounces + 1,
-            ..path
-        };
-        self.further.push(ray, path);
-        self.statistics.mirror_rays += 1;
+        )
     }
 
     /// Sends on what the surface lets through, in the direction it came.
@@ -56,7 +67,7 @@ impl Tracer<'_> {
         if !mirror::matters(energy) {
             return;
         }
-        if path.layers == MAX_LAYERS {
+        if u32::from(path.layers) == MAX_LAYERS {
             self.statistics.lost_in_layers += 1;
             return;
         }

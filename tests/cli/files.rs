@@ -115,7 +115,7 @@ fn a_wrong_gltf_is_one_line_that_names_the_place() {
         ),
         (
             |f| f["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]),
-            "needs KHR_draco_mesh_compression, which is not supported; re-export without compression",
+            "needs KHR_draco_mesh_compression, which is not supported; re-export without compression, or go on without with --allow KHR_draco_mesh_compression",
         ),
         (
             |f| f["nodes"][0] = json!({}),

@@ -15,6 +15,7 @@ fn help_names_every_option_and_has_examples() {
         "--samples",
         "--max-depth",
         "--shading",
+        "--list-cameras",
         "--camera",
         "--eye",
         "--target",
@@ -34,6 +35,9 @@ fn help_names_every_option_and_has_examples() {
         "-v, --verbose",
         "-q, --quiet",
         "--json",
+        "--scene",
+        "--variant",
+        "--allow",
     ] {
         assert!(
             render.out().contains(&format!("{option} "))

@@ -10,7 +10,7 @@ fn one_of_everything() -> String {
     // 1 x 1, grey.
     let image = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGNoAAAAggCBd81ytgAAAABJRU5ErkJggg==";
     json!({
-        "asset": {"version": "2.0", "generator": "a test"},
+        "asset": {"version": "2.0", "generator": "a test", "extras": {"by": "hand"}},
         "scene": 0,
         "scenes": [{"name": "room", "nodes": [0, 1, 2, 3]}],
         "nodes": [
@@ -54,9 +54,12 @@ a.gltf
   textures    1: grain (1 x 1)
   lights      1: sun
   cameras     1: door
-  animations  1: run
-  extension   KHR_lights_punctual (required, honoured)
-  extension   ACME_x (used, ignored)
+  animation   0 \"run\": 0 s
+  asks        KHR_lights_punctual, required: honoured
+  asks        ACME_x: ignored
+  asks        metallic-roughness materials: approximated: Blinn-Phong highlights as wide, mirror rays off what is smooth
+  asks        animations: honoured
+  note        asset: {\"by\":\"hand\"}
   instances   2
   drawn       2 triangles, 1 light
   bounds      (0, 0, 0) to (3, 1, 0)
@@ -93,11 +96,15 @@ fn everything_in_a_model_is_told_as_json() {
             "textures": [{"name": "grain", "size": [1, 1]}],
             "lights": ["sun"],
             "cameras": ["door"],
-            "animations": ["run"],
-            "extensions": [
-                {"name": "KHR_lights_punctual", "required": true, "treatment": "honoured"},
-                {"name": "ACME_x", "required": false, "treatment": "ignored"},
+            "animations": [{"name": "run", "seconds": 0.0, "moves": []}],
+            "asks": [
+                {"what": "KHR_lights_punctual", "required": true, "treatment": "honoured", "by": null},
+                {"what": "ACME_x", "required": false, "treatment": "ignored", "by": null},
+                {"what": "metallic-roughness materials", "required": false, "treatment": "approximated",
+                    "by": "Blinn-Phong highlights as wide, mirror rays off what is smooth"},
+                {"what": "animations", "required": false, "treatment": "honoured", "by": null},
             ],
+            "notes": [{"of": "asset", "says": {"by": "hand"}}],
         }],
         "instances": 2,
         "drawn": {"triangles": 2, "spheres": 0, "planes": 0, "lights": 1},

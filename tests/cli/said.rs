@@ -109,7 +109,7 @@ fn json_is_all_that_standard_output_has() {
     }
     assert_eq!(json["choices"].as_array().map(Vec::len), Some(3));
     let rays = |kind: &str| json["rays"][kind].as_u64().expect("a count");
-    let sum: u64 = ["camera", "transparent", "shadow", "mirror"]
+    let sum: u64 = ["camera", "transparent", "shadow", "mirror", "refracted"]
         .map(rays)
         .iter()
         .sum();
@@ -132,7 +132,7 @@ fn json_is_all_that_standard_output_has() {
         );
     }
     let fields = json.as_object().map_or(0, |object| object.len());
-    assert_eq!(fields, 15);
+    assert_eq!(fields, 16);
     let quiet = folder.luch_succeeds(&["render", "scene.toml", "-q", "--json"]);
     assert_eq!(quiet.err, "");
     assert_eq!(quiet.json()["display"], "srgb");

@@ -18,19 +18,20 @@ fn facts_tell_of_scenes_animations_and_extensions() {
     let facts = &model.facts;
     assert_eq!(facts.format, "glTF 2.0 (Test 1\u{fffd})");
     assert_eq!(
-        (facts.scenes.as_slice(), facts.animations.as_slice()),
-        (&["room".to_owned()][..], &["run".to_owned()][..])
+        (facts.scenes.as_slice(), facts.animations[0].name.as_str()),
+        (&["room".to_owned()][..], "run")
     );
-    let extensions: Vec<_> = facts
-        .extensions
+    let asks: Vec<_> = facts
+        .asks
         .iter()
-        .map(|e| (e.name.as_str(), e.required, e.treatment.name()))
+        .map(|ask| (ask.what.as_str(), ask.required, ask.treatment.name()))
         .collect();
     assert_eq!(
-        extensions,
+        asks,
         [
             ("KHR_materials_unlit", true, "honoured"),
-            ("ACME_x", false, "ignored")
+            ("ACME_x", false, "ignored"),
+            ("animations", false, "honoured"),
         ]
     );
     assert_eq!(warnings(&model), ["uses ACME_x, which is ignored"]);

@@ -94,7 +94,12 @@ impl File {
     }
 
     /// The file on the disk, opened; an error without the folder's name.
-    pub(crate) fn open(mut self) -> Result<Model, String> {
+    pub(crate) fn open(self) -> Result<Model, String> {
+        self.open_with(&load::Options::default())
+    }
+
+    /// The same, read as `options` say.
+    pub(crate) fn open_with(mut self, options: &load::Options) -> Result<Model, String> {
         let folder = TempDir::new().map_err(|e| e.to_string())?;
         if self.json.get("buffers").is_none() {
             let buffer = json!({"uri": "model.bin", "byteLength": self.bytes.len()});
@@ -104,8 +109,7 @@ impl File {
         fs::write(folder.path().join("model.bin"), &self.bytes).map_err(|e| e.to_string())?;
         fs::write(&path, self.json.to_string()).map_err(|e| e.to_string())?;
         let prefix = format!("{}/", folder.path().display());
-        gltf::open(&path, &load::Options::default())
-            .map_err(|error| error.to_string().replace(&prefix, ""))
+        gltf::open(&path, options).map_err(|error| error.to_string().replace(&prefix, ""))
     }
 
     /// The same, for a file that must load.

@@ -248,3 +248,26 @@ fn a_spots_inner_cone_lies_inside_its_outer_one() {
         assert_error(&format!("{spot}{angles}"), 5, message);
     }
 }
+
+#[test]
+fn keys_that_say_nothing_of_what_goes_through_are_refused() {
+    for (more, line, message) in [
+        (
+            "[[material]]\nname = \"b\"\nior = 1.3",
+            3,
+            "ior says nothing without transmission; write that, too",
+        ),
+        (
+            "[[material]]\nname = \"b\"\ntransmission = 1\nthin = true\ndispersion = 1",
+            5,
+            "a thin material has no dispersion; remove it",
+        ),
+        (
+            "[[material]]\nname = \"b\"\ntransmission = 1\nattenuation_color = [0, 1, 0]",
+            4,
+            "attenuation_color is what is left after attenuation_distance, which is not written; write a number above 0",
+        ),
+    ] {
+        assert_error(more, line, message);
+    }
+}

@@ -203,6 +203,36 @@ fn a_value_out_of_range_is_told_with_its_key_and_line() {
             "shininess in [[material]] is -1, expected a finite number, 0 or more",
         ),
         (
+            "[[material]]\nname = \"b\"\ntransmission = 2",
+            3,
+            "transmission in [[material]] is 2, expected a number from 0 to 1",
+        ),
+        (
+            "[[material]]\nname = \"b\"\ntransmission = 1\nior = 0",
+            4,
+            "ior in [[material]] is 0, expected a finite number above 0",
+        ),
+        (
+            "[[material]]\nname = \"b\"\ntransmission = 1\nthin = 1",
+            4,
+            "thin in [[material]] is 1, expected true or false",
+        ),
+        (
+            "[[material]]\nname = \"b\"\ntransmission = 1\nattenuation_color = [1, 1, 1.5]",
+            4,
+            "attenuation_color in [[material]] is [1, 1, 1.5], expected three numbers from 0 to 1, [red, green, blue]",
+        ),
+        (
+            "[[material]]\nname = \"b\"\ntransmission = 1\nattenuation_distance = 0",
+            4,
+            "attenuation_distance in [[material]] is 0, expected a number above 0, or inf",
+        ),
+        (
+            "[[material]]\nname = \"b\"\ntransmission = 1\ndispersion = -1",
+            4,
+            "dispersion in [[material]] is -1, expected a finite number, 0 or more",
+        ),
+        (
             "[[material]]\nname = \"b\"\nreflectivity = 1.5",
             3,
             "reflectivity in [[material]] is 1.5, expected a number from 0 to 1",

@@ -1,9 +1,11 @@
 //! What is in a model.
 
+use super::super::asks::AskInfo;
+use super::animation::{self, Animation};
 use super::{Line, listed};
 use crate::cli::print::{self, counted};
 use indicatif::HumanCount;
-use luch::load::{ExtensionFacts, Model, TextureFacts};
+use luch::load::{Model, Note, TextureFacts};
 use serde::Serialize;
 
 /// What is in a model. Names are empty strings where the file has none.
@@ -22,8 +24,11 @@ pub(super) struct ModelInfo {
     textures: Vec<Texture>,
     lights: Vec<String>,
     cameras: Vec<String>,
-    animations: Vec<String>,
-    extensions: Vec<Extension>,
+    animations: Vec<Animation>,
+    /// What the file asks for, and what luch does with it.
+    asks: Vec<AskInfo>,
+    /// `extras` and metadata, with whose they are.
+    notes: Vec<NoteInfo>,
 }
 
 #[derive(Serialize)]
@@ -33,11 +38,13 @@ struct Texture {
     size: Option<(u32, u32)>,
 }
 
+/// So many notes are told in words.
+const SHOWN_NOTES: usize = 8;
+
 #[derive(Serialize)]
-struct Extension {
-    name: String,
-    required: bool,
-    treatment: &'static str,
+struct NoteInfo {
+    of: String,
+    says: serde_json::Value,
 }
 
 impl ModelInfo {
@@ -49,11 +56,6 @@ impl ModelInfo {
         let texture = |TextureFacts { name, size }: &TextureFacts| Texture {
             name: name.clone(),
             size: *size,
-        };
-        let extension = |e: &ExtensionFacts| Extension {
-            name: e.name.clone(),
-            required: e.required,
-            treatment: e.treatment.name(),
         };
         ModelInfo {
             file: print::path(&model.file),
@@ -68,8 +70,9 @@ impl ModelInfo {
             textures: facts.textures.iter().map(texture).collect(),
             lights: model.lights.iter().map(|l| l.name.clone()).collect(),
             cameras: model.cameras.iter().map(|c| c.name.clone()).collect(),
-            animations: facts.animations.clone(),
-            extensions: facts.extensions.iter().map(extension).collect(),
+            animations: facts.animations.iter().map(Animation::of).collect(),
+            asks: facts.asks.iter().map(AskInfo::of).collect(),
+            notes: facts.notes.iter().map(NoteInfo::of).collect(),
         }
     }
 
@@ -92,13 +95,14 @@ impl ModelInfo {
             ("textures", listed(&textures)),
             ("lights", listed(&self.lights)),
             ("cameras", listed(&self.cameras)),
-            ("animations", listed(&self.animations)),
         ]);
-        if self.extensions.is_empty() {
-            lines.push(("extensions", "0".into()));
+        lines.extend(animation::in_words(&self.animations));
+        lines.extend(self.asks.iter().map(|ask| ("asks", ask.in_words())));
+        let notes = self.notes.iter().take(SHOWN_NOTES);
+        lines.extend(notes.map(|note| ("note", note.in_words())));
+        if let Some(more) = self.notes.len().checked_sub(SHOWN_NOTES).filter(|&n| n > 0) {
+            lines.push(("note", format!("and {more} more: --json has them")));
         }
-        let extensions = self.extensions.iter();
-        lines.extend(extensions.map(|extension| ("extension", extension.in_words())));
         lines
     }
 }
@@ -112,14 +116,22 @@ impl Texture {
     }
 }
 
-impl Extension {
+impl NoteInfo {
+    fn of(note: &Note) -> NoteInfo {
+        let says = serde_json::from_str(&note.json);
+        NoteInfo {
+            of: note.place.clone(),
+            says: says.unwrap_or_else(|_| note.json.clone().into()),
+        }
+    }
+
+    /// Its beginning: some are whole documents.
     fn in_words(&self) -> String {
-        let Extension {
-            name,
-            required,
-            treatment,
-        } = self;
-        let required = if *required { "required" } else { "used" };
-        format!("{name} ({required}, {treatment})")
+        let says = self.says.to_string();
+        let mut shown: String = says.chars().take(100).collect();
+        if shown.len() < says.len() {
+            shown.push('…');
+        }
+        format!("{}: {shown}", self.of)
     }
 }

@@ -1,5 +1,6 @@
 //! What `luch study` can be told.
 
+use super::super::reading::Reading;
 use super::super::values::{Size, whole_number};
 use clap::{Args, Subcommand};
 use luch::accel::{Isa, Layout, Preset};
@@ -77,6 +78,9 @@ pub(super) struct Common {
     /// Say nothing but errors
     #[arg(short, long)]
     pub(super) quiet: bool,
+
+    #[command(flatten)]
+    pub(super) reading: Reading,
 }
 
 #[derive(Args, Debug)]
@@ -134,7 +138,8 @@ pub(super) struct ScalingArguments {
 #[derive(Args, Debug)]
 pub(super) struct SamplesArguments {
     /// A scene or a model; the paper's figure 4 where there is none
-    pub(super) scene: Option<PathBuf>,
+    #[arg(value_name = "SCENE")]
+    pub(super) input: Option<PathBuf>,
 
     /// A camera of the model, by name or by index from 0
     #[arg(long, value_name = "NAME|INDEX")]

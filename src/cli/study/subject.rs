@@ -1,5 +1,6 @@
 //! What is studied: a model, a scene file, or generated shapes.
 
+use super::super::reading::Reading;
 use super::super::render::{FIGURE_4, FIGURE_4_NAME};
 use super::super::{Failure, print};
 use luch::load::{self, Asset, CameraChoice, Viewpoint};
@@ -34,13 +35,14 @@ impl Subject {
         path: &Path,
         camera: Option<&str>,
         size: [u32; 2],
+        reading: &Reading,
     ) -> Result<Subject, Failure> {
         if let Some((shape, count)) = shape_and_count(path)?.filter(|_| !path.exists()) {
             let scene = (generated(shape, count).make)().map_err(Failure::usage_or_scene)?;
             let name = format!("{}:{count}", shape.name());
             return Ok(Subject::of_scene(&name, scene));
         }
-        let asset = load::open(path, &load::Options::default()).map_err(Failure::usage_or_scene)?;
+        let asset = load::open(path, &reading.options()).map_err(Failure::usage_or_scene)?;
         let name = path.file_name().unwrap_or(path.as_os_str());
         let hash = hash_of(&asset.files).map_err(|error| {
             Failure::usage_or_scene(format!(

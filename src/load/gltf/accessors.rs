@@ -4,32 +4,10 @@
 
 use super::buffers::{Buffers, slice};
 use super::document::Document;
-use gltf::json::accessor::sparse::Sparse;
-use gltf::json::accessor::{Accessor, ComponentType, Type};
+use super::elements::{Elements, Spaced};
+use super::sparse;
+use gltf::json::accessor::{Accessor, Type};
 use gltf::json::validation::Checked;
-
-/// The elements of an accessor.
-#[derive(Debug)]
-pub(super) struct Elements<'a> {
-    /// How many there are.
-    pub(super) count: usize,
-    /// How many numbers each has.
-    pub(super) components: usize,
-    component: ComponentType,
-    normalized: bool,
-    /// Zeros where there is none.
-    base: Option<Spaced<'a>>,
-    /// What sparse storage changes: which element, and its bytes. Sorted, each element once.
-    changes: Vec<(u32, &'a [u8])>,
-}
-
-/// Elements `stride` bytes apart.
-#[derive(Clone, Copy, Debug)]
-struct Spaced<'a> {
-    bytes: &'a [u8],
-    stride: usize,
-    size: usize,
-}
 
 /// How many elements without bytes a file may have beside one a byte of its buffers: a short file that claims a
 /// billion zeros is no model.
@@ -94,9 +72,8 @@ fn elements<'a>(
     // No element without a byte or out of the allowance above: this fits.
     let count = usize::try_from(count).map_err(|_| format!("has {count} elements"))?;
     let changes = match &accessor.sparse {
-        Some(sparse) => {
-            changes(sparse, buffers, count, size).map_err(|problem| format!("sparse: {problem}"))?
-        }
+        Some(sparse) => sparse::changes(sparse, buffers, count, size)
+            .map_err(|problem| format!("sparse: {problem}"))?,
         None => Vec::new(),
     };
     Ok(Elements {
@@ -110,7 +87,7 @@ fn elements<'a>(
 }
 
 /// `count` elements of `size` bytes in a view.
-fn spaced<'a>(
+pub(super) fn spaced<'a>(
     buffers: &'a Buffers,
     view_index: usize,
     offset: u64,
@@ -145,144 +122,6 @@ fn spaced<'a>(
     })
 }
 
-/// What sparse storage changes of `count` elements of `size` bytes.
-fn changes<'a>(
-    sparse: &Sparse,
-    buffers: &'a Buffers,
-    count: usize,
-    size: usize,
-) -> Result<Vec<(u32, &'a [u8])>, String> {
-    let changed = sparse.count.0;
-    if changed > count as u64 {
-        return Err(format!("changes {changed} elements of {count}"));
-    }
-    let Checked::Valid(component) = sparse.indices.component_type else {
-        return Err("its indices' componentType is unknown".into());
-    };
-    let component = component.0;
-    let (indices, values) = (&sparse.indices, &sparse.values);
-    let index_view = indices.buffer_view.value();
-    let which = spaced(
-        buffers,
-        index_view,
-        indices.byte_offset.0,
-        changed,
-        component.size(),
-    )?;
-    let value_view = values.buffer_view.value();
-    let what = spaced(buffers, value_view, values.byte_offset.0, changed, size)?;
-    let mut changes = Vec::with_capacity(changed as usize);
-    for i in 0..changed as usize {
-        let index = whole(which.element(i), component);
-        if index as usize >= count {
-            return Err(format!(
-                "index {index} is past the last element ({})",
-                count - 1
-            ));
-        }
-        changes.push((index, what.element(i)));
-    }
-    // The format has them in order, each once; where a file does not, the last one counts.
-    changes.reverse();
-    changes.sort_by_key(|&(index, _)| index);
-    changes.dedup_by_key(|&mut (index, _)| index);
-    Ok(changes)
-}
-
-impl<'a> Spaced<'a> {
-    /// Element `i`; empty past the end.
-    fn element(&self, i: usize) -> &'a [u8] {
-        let start = i.saturating_mul(self.stride);
-        self.bytes
-            .get(start..start.saturating_add(self.size))
-            .unwrap_or_default()
-    }
-}
-
-impl Elements<'_> {
-    /// Whether its numbers are ones that vertices can be counted with.
-    pub(super) fn counts(&self) -> bool {
-        matches!(
-            self.component,
-            ComponentType::U8 | ComponentType::U16 | ComponentType::U32
-        )
-    }
-
-    /// Element `i` as a whole number.
-    pub(super) fn index(&self, i: usize) -> u32 {
-        whole(self.element(i), self.component)
-    }
-
-    /// Element `i` as numbers, normalized integers as shares from -1 or 0 to 1; zero for those it does not have.
-    pub(super) fn floats<const N: usize>(&self, i: usize) -> [f32; N] {
-        let element = self.element(i);
-        let size = self.component.size();
-        std::array::from_fn(|c| {
-            let number = element.get(c * size..).unwrap_or_default();
-            float(number, self.component, self.normalized)
-        })
-    }
-
-    /// The bytes of element `i`; empty where it is zero.
-    fn element(&self, i: usize) -> &[u8] {
-        let changed = self
-            .changes
-            .binary_search_by_key(&(i as u64), |&(index, _)| u64::from(index));
-        match (changed, &self.base) {
-            (Ok(at), _) => self.changes.get(at).map_or(&[], |&(_, bytes)| bytes),
-            (Err(_), Some(base)) => base.element(i),
-            (Err(_), None) => &[],
-        }
-    }
-}
-
-/// The first number in `bytes`, a whole one; zero where there is none.
-fn whole(bytes: &[u8], component: ComponentType) -> u32 {
-    let read = match component {
-        ComponentType::U8 => bytes.first().map(|&b| u32::from(b)),
-        ComponentType::U16 => bytes
-            .first_chunk()
-            .map(|&b| u32::from(u16::from_le_bytes(b))),
-        ComponentType::U32 => bytes.first_chunk().map(|&b| u32::from_le_bytes(b)),
-        ComponentType::I8 | ComponentType::I16 | ComponentType::F32 => None,
-    };
-    read.unwrap_or_default()
-}
-
-/// The first number in `bytes`; zero where there is none.
-fn float(bytes: &[u8], component: ComponentType, normalized: bool) -> f32 {
-    let (value, greatest) = match component {
-        ComponentType::F32 => {
-            return bytes.first_chunk().map_or(0.0, |&b| f32::from_le_bytes(b));
-        }
-        ComponentType::U32 => {
-            return bytes
-                .first_chunk()
-                .map_or(0.0, |&b| u32::from_le_bytes(b) as f32);
-        }
-        ComponentType::I8 => (bytes.first().map(|&b| f32::from(b as i8)), 127.0),
-        ComponentType::U8 => (bytes.first().map(|&b| f32::from(b)), 255.0),
-        ComponentType::I16 => (
-            bytes
-                .first_chunk()
-                .map(|&b| f32::from(i16::from_le_bytes(b))),
-            32_767.0,
-        ),
-        ComponentType::U16 => (
-            bytes
-                .first_chunk()
-                .map(|&b| f32::from(u16::from_le_bytes(b))),
-            65_535.0,
-        ),
-    };
-    let value = value.unwrap_or_default();
-    if normalized {
-        (value / greatest).max(-1.0) // Two's complement has one more below than above.
-    } else {
-        value
-    }
-}
-
 fn name(kind: Type) -> String {
     match kind {
         Type::Scalar => "SCALAR",
@@ -294,30 +133,4 @@ fn name(kind: Type) -> String {
         Type::Mat4 => "MAT4",
     }
     .into()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn normalized_integers_become_shares() {
-        let share = |bytes: &[u8], component| float(bytes, component, true);
-        assert_eq!(share(&[255], ComponentType::U8), 1.0);
-        assert_eq!(share(&[0x80], ComponentType::I8), -1.0);
-        assert_eq!(share(&[0x81], ComponentType::I8), -1.0);
-        assert_eq!(share(&[0xff, 0x7f], ComponentType::I16), 1.0);
-        assert_eq!(share(&[0, 0x80], ComponentType::I16), -1.0);
-        assert_eq!(share(&[0xff, 0xff], ComponentType::U16), 1.0);
-        assert_eq!(float(&[7], ComponentType::U8, false), 7.0);
-    }
-
-    #[test]
-    fn whole_numbers_are_little_endian() {
-        let bytes = [1, 2, 3, 4];
-        assert_eq!(whole(&bytes, ComponentType::U8), 1);
-        assert_eq!(whole(&bytes, ComponentType::U16), 0x0201);
-        assert_eq!(whole(&bytes, ComponentType::U32), 0x0403_0201);
-        assert_eq!(whole(&[1, 2, 3], ComponentType::U32), 0);
-    }
 }

@@ -1,6 +1,7 @@
 //! The bytes of a file's buffers, and the views into them.
 
 use super::document::Document;
+use super::meshopt;
 use super::uri::{self, Uri};
 use crate::Error;
 use crate::load::files;
@@ -13,6 +14,8 @@ use std::sync::Arc;
 pub(super) struct Buffers<'a> {
     document: &'a Document,
     buffers: Vec<Bytes<'a>>,
+    /// What compressed views hold, by their indices; for those that cannot be unpacked, why.
+    unpacked: HashMap<usize, Result<Vec<u8>, String>>,
     /// How many bytes were read, each file once.
     pub(super) total_bytes: u64,
     /// Every file that was read.
@@ -55,6 +58,8 @@ impl<'a> Buffers<'a> {
         for (index, buffer) in document.root.buffers.iter().enumerate() {
             let wrong = |problem: String| document.malformed(format!("buffer {index}"), problem);
             let bytes = match (&buffer.uri, binary) {
+                // Nothing is where uncompressed bytes would be.
+                (None, _) if meshopt::is_fallback(buffer) => Bytes::Absent,
                 (None, Some(chunk)) if index == 0 => Bytes::Chunk(chunk),
                 (None, _) => Bytes::Absent,
                 (Some(uri), _) => match uri::resolve(uri, document).map_err(wrong)? {
@@ -85,15 +90,18 @@ impl<'a> Buffers<'a> {
             }
             buffers.push(bytes);
         }
-        Ok(Buffers {
+        let mut buffers = Buffers {
             document,
             buffers,
+            unpacked: HashMap::new(),
             total_bytes,
             files,
-        })
+        };
+        buffers.unpacked = meshopt::unpack(document, &buffers);
+        Ok(buffers)
     }
 
-    /// A view by its index.
+    /// A view by its index, unpacked where it is compressed.
     ///
     /// # Errors
     ///
@@ -104,26 +112,40 @@ impl<'a> Buffers<'a> {
         let view = views
             .get(index)
             .ok_or_else(|| format!("buffer view {index} does not exist, there are {count}"))?;
-        let buffer = view.buffer.value();
+        let wrong = |problem: &str| format!("buffer view {index}: {problem}");
+        let bytes = match self.unpacked.get(&index) {
+            Some(unpacked) => unpacked.as_deref().map_err(|problem| wrong(problem))?,
+            None => {
+                let start = view.byte_offset.unwrap_or_default().0;
+                self.part(view.buffer.value(), start, view.byte_length.0)
+                    .map_err(|problem| wrong(&problem))?
+            }
+        };
+        Ok(View {
+            bytes,
+            stride: view.byte_stride.map(|stride| stride.0).filter(|&s| s > 0),
+        })
+    }
+
+    /// `length` bytes of a buffer.
+    ///
+    /// # Errors
+    ///
+    /// One line: there is no such buffer, or no such bytes.
+    pub(super) fn part(&self, buffer: usize, start: u64, length: u64) -> Result<&[u8], String> {
         let count = self.buffers.len();
-        let bytes = self.buffers.get(buffer).ok_or_else(|| {
-            format!("buffer view {index}: buffer {buffer} does not exist, there are {count}")
-        })?;
-        let bytes = bytes.get().ok_or_else(|| {
+        let bytes = self
+            .buffers
+            .get(buffer)
+            .ok_or_else(|| format!("buffer {buffer} does not exist, there are {count}"))?;
+        let bytes = bytes
+            .get()
+            .ok_or_else(|| format!("buffer {buffer} has neither a URI nor a GLB's binary chunk"))?;
+        slice(bytes, start, length).ok_or_else(|| {
             format!(
-                "buffer view {index}: buffer {buffer} has neither a URI nor a GLB's binary chunk"
-            )
-        })?;
-        let (start, length) = (view.byte_offset.unwrap_or_default().0, view.byte_length.0);
-        let part = slice(bytes, start, length).ok_or_else(|| {
-            format!(
-                "buffer view {index}: {length} bytes from {start} do not fit into buffer {buffer} ({} bytes)",
+                "{length} bytes from {start} do not fit into buffer {buffer} ({} bytes)",
                 bytes.len()
             )
-        })?;
-        Ok(View {
-            bytes: part,
-            stride: view.byte_stride.map(|stride| stride.0).filter(|&s| s > 0),
         })
     }
 }

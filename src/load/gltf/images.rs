@@ -14,10 +14,6 @@ use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// What decoding takes beside the decoded image, in bytes for each of its own: coefficients of a JPEG, or the pixels in
-/// the file's own format and a copy.
-const BESIDE: u64 = 3;
-
 /// What became of the images that were tried, by their index in the file.
 pub(super) type Tried = HashMap<usize, Result<Arc<Image>, String>>;
 
@@ -37,8 +33,7 @@ struct Encoded<'a> {
     /// Its ending may tell the kind.
     name: String,
     bytes: Cow<'a, [u8]>,
-    /// Of the decoded image.
-    bytes_decoded: u64,
+    header: images::Header,
 }
 
 /// Decodes images, and knows which it has decoded.
@@ -47,8 +42,6 @@ pub(super) struct Decoder<'a> {
     buffers: &'a Buffers<'a>,
     /// The first image of each source stands for all of them.
     first_of: HashMap<Source, usize>,
-    /// What the greatest image so far takes: each thread may be at one as great.
-    greatest: u64,
 }
 
 impl<'a> Decoder<'a> {
@@ -57,7 +50,6 @@ impl<'a> Decoder<'a> {
             document,
             buffers,
             first_of: HashMap::new(),
-            greatest: 0,
         }
     }
 
@@ -86,18 +78,27 @@ impl<'a> Decoder<'a> {
             .collect();
         let mut ready: Vec<(usize, Encoded)> = Vec::new();
         for (image, found) in encoded {
-            match found.and_then(|encoded| self.spend(encoded)) {
+            let taken = found.and_then(|encoded| {
+                encoded.header.take(&self.document.budget)?;
+                Ok(encoded)
+            });
+            match taken {
                 Ok(encoded) => ready.push((image, encoded)),
                 Err(problem) => drop(tried.insert(image, Err(problem))),
             }
         }
-        ready.sort_by_key(|(_, encoded)| Reverse(encoded.bytes_decoded));
+        ready.sort_by_key(|(_, encoded)| Reverse(encoded.header.bytes_to_decode()));
+        // What takes more than a thread's part of the memory that is left is decoded alone.
+        let part = self.document.budget.left() / rayon::current_num_threads() as u64;
+        let small = ready.partition_point(|(_, e)| e.header.bytes_to_decode() > part);
+        let rest = ready.split_off(small);
+        let decode = |(image, encoded): (usize, Encoded)| {
+            (image, images::decode(&encoded.name, &encoded.bytes))
+        };
+        let mut decoded: Vec<(usize, Result<images::Decoded, String>)> =
+            ready.into_iter().map(decode).collect();
         // One thread takes the next when it is done with one: what is greatest is never last.
-        let mut decoded: Vec<(usize, Result<images::Decoded, String>)> = ready
-            .into_iter()
-            .par_bridge()
-            .map(|(image, encoded)| (image, images::decode(&encoded.name, &encoded.bytes)))
-            .collect();
+        decoded.par_extend(rest.into_iter().par_bridge().map(decode));
         decoded.sort_by_key(|(image, _)| *image);
         for (image, found) in decoded {
             let found = found.map(|decoded| {
@@ -123,17 +124,6 @@ impl<'a> Decoder<'a> {
             }
             tried.insert(image, found);
         }
-    }
-
-    /// Takes what an image needs from the budget. In the file's order: which image no longer fits is no matter of chance.
-    fn spend(&mut self, encoded: Encoded<'a>) -> Result<Encoded<'a>, String> {
-        let bytes = encoded.bytes_decoded;
-        let more = bytes.saturating_sub(self.greatest);
-        let beside = more * BESIDE * rayon::current_num_threads() as u64;
-        let taken = self.document.budget.take(bytes + beside);
-        taken.map_err(|problem| problem.to_string())?;
-        self.greatest += more;
-        Ok(encoded)
     }
 }
 
@@ -196,11 +186,11 @@ fn encoded<'a>(
             Cow::Borrowed(buffers.view(view.value())?.bytes)
         }
     };
-    let bytes_decoded = images::header(&name, &bytes)?.bytes_decoded();
+    let header = images::header(&name, &bytes)?;
     Ok(Encoded {
         name,
         bytes,
-        bytes_decoded,
+        header,
     })
 }
 

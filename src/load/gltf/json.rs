@@ -1,5 +1,6 @@
 //! From JSON text to crate `gltf`'s typed document.
 
+use super::animation_pointer;
 use super::document::check_raw_version;
 use crate::Error;
 use gltf::json::Root;
@@ -7,7 +8,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Keys whose values are indices.
-const INDICES: [&str; 18] = [
+const INDICES: [&str; 19] = [
     "attributes",
     "buffer",
     "bufferView",
@@ -25,6 +26,7 @@ const INDICES: [&str; 18] = [
     "output",
     "sampler",
     "scene",
+    "skin",
     "source",
 ];
 
@@ -96,8 +98,8 @@ fn too_great<'a>(value: &'a Value, key: &'a str) -> Option<(&'a str, u64)> {
     }
 }
 
-/// A second attempt at a document, for what glTF allows and crate `gltf` does not: scenes without nodes, channels
-/// without a node (KHR_animation_pointer), whole numbers that end in `.0`.
+/// A second attempt at a document, for what glTF allows and crate `gltf` does not: scenes without nodes, animations without channels, channels
+/// without a node, whole numbers that end in `.0`.
 fn parse_mended(file: &Path, text: &str, first: &serde_json::Error) -> Result<Root, Error> {
     let mut value: Value = serde_json::from_str(text).map_err(|e| not_read(file, &e))?;
     check_raw_version(file, &value)?;
@@ -110,8 +112,18 @@ fn parse_mended(file: &Path, text: &str, first: &serde_json::Error) -> Result<Ro
     }
     if let Some(animations) = value.get_mut("animations").and_then(Value::as_array_mut) {
         for animation in animations {
+            if let Some(animation) = animation.as_object_mut() {
+                for name in ["channels", "samplers"] {
+                    let nothing = || Value::Array(Vec::new());
+                    animation.entry(name).or_insert_with(nothing);
+                }
+            }
             if let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) {
-                channels.retain(|channel| channel.pointer("/target/node").is_some());
+                let (of_nodes, others): (Vec<Value>, Vec<Value>) = std::mem::take(channels)
+                    .into_iter()
+                    .partition(|channel| channel.pointer("/target/node").is_some());
+                *channels = of_nodes;
+                animation_pointer::keep(animation, others);
             }
         }
     }

@@ -1,7 +1,28 @@
-//! Materials: metallic-roughness with its five textures, or unlit (glTF 2.0, section 3.9).
+//! Materials: metallic-roughness with its five textures, or what extensions have instead (glTF 2.0, section 3.9).
+//!
+//! What extensions ask, and what luch does. `F` is the Fresnel term at the angle of the viewer, `m` the share of it that a
+//! sharp mirror stands for ([`microfacet`](crate::shade::microfacet)); the rest of it sees the constant ambient light.
+//!
+//! | extension | asks | luch does |
+//! | --- | --- | --- |
+//! | KHR_materials_emissive_strength | emission above 1 | that |
+//! | KHR_materials_unlit | a colour that light does not change | that |
+//! | KHR_materials_ior | `F0 = ((n - 1) / (n + 1))^2` for what is not metal; `n = 0` is infinite | that; what is mirrored above 4 % is taken from diffuse light; rays bend by it |
+//! | KHR_materials_specular | a factor for `F0` and `F90` and a colour for `F0` of what is not metal | that |
+//! | KHR_materials_transmission | light goes through, spread by roughness, tinted by the base colour | a ray goes on, sharp however rough the surface is |
+//! | KHR_materials_volume | bodies bend light and swallow it on its way | that where `thicknessFactor` is above 0; rays measure the way, so that the texture of thickness is not read |
+//! | KHR_materials_dispersion | colours bend unlike | three rays, for red, green and blue |
+//! | KHR_materials_clearcoat | a second, dielectric lobe over all the others, with its own roughness and normal | a second highlight and mirror of `F0 = 0.04`, `weight F` of the light, taken from all below it; along the surface's own normal, so that its normal texture is not read |
+//! | KHR_materials_sheen | the "Charlie" lobe of fibres, what it sends back taken from below | that, each lamp by the lobe and ambient light by its integral |
+//! | KHR_materials_iridescence | thin-film interference instead of `F`, at each half vector | that, at the angle of the viewer, for dielectric and metal mixed |
+//! | KHR_materials_anisotropy | a lobe that is longer along a direction | a round one, as high: the geometric mean of both `alpha` |
+//! | KHR_materials_diffuse_transmission | diffuse light from behind | ambient light comes through, that of lamps does not; what goes through is taken from diffuse light |
+//! | KHR_materials_pbrSpecularGlossiness | diffuse colour, `F0`, glossiness instead of metallic-roughness | that, wherever a material has it |
+//! | KHR_materials_variants | materials of which a user chooses | that; a primitive's own where none is chosen |
 
 use super::document::{Document, named};
 use super::emissive_strength::{self, EmissiveStrength};
+use super::materials_extensions::Extended;
 use super::materials_unlit::{self, Unlit};
 use super::texture_info::TextureInfo;
 use super::texture_transform::{self, TextureTransform};
@@ -19,8 +40,9 @@ use gltf::json::validation::Checked;
 use std::collections::BTreeSet;
 
 /// The textures that materials use, by their index in the file.
-pub(super) fn textures_used(document: &Document) -> BTreeSet<usize> {
+pub(super) fn textures_used(document: &Document, extended: &[Extended]) -> BTreeSet<usize> {
     let materials = document.root.materials.iter();
+    let of_extensions = extended.iter().flat_map(Extended::textures);
     materials
         .flat_map(|material| {
             let pbr = &material.pbr_metallic_roughness;
@@ -35,29 +57,31 @@ pub(super) fn textures_used(document: &Document) -> BTreeSet<usize> {
             infos.into_iter().chain([normal, occlusion]).flatten()
         })
         .map(|index| index.value())
+        .chain(of_extensions)
         .collect()
 }
 
-/// The materials of a file, and the default one after them.
+/// The materials of a file, of which `extended` says what extensions do, and the default one after them.
 ///
 /// # Errors
 ///
 /// A material names a texture that does not exist.
 pub(super) fn all(
     document: &Document,
+    extended: &[Extended],
     textures: &mut Textures,
     warnings: &mut Warnings,
 ) -> Result<Vec<Material>, Error> {
-    let materials = document.root.materials.iter().enumerate();
+    let materials = document.root.materials.iter().zip(extended).enumerate();
     let mut read: Vec<Material> = Vec::with_capacity(document.root.materials.len() + 1);
-    for (index, json) in materials {
+    for (index, (json, extended)) in materials {
         let place = named("material", index, json.name.as_ref());
         let mut reader = Reader {
             place,
             textures,
             warnings,
         };
-        read.push(reader.material(json)?);
+        read.push(reader.material(json, extended)?);
     }
     let place = String::new();
     let mut reader = Reader {
@@ -65,56 +89,75 @@ pub(super) fn all(
         textures,
         warnings,
     };
-    read.push(reader.material(&MaterialJson::default())?);
+    read.push(reader.material(&MaterialJson::default(), &Extended::default())?);
     Ok(read)
 }
 
-struct Reader<'a, 'd> {
+/// Where one material is read from, and what it is called in messages.
+pub(super) struct Reader<'a, 'd> {
     place: String,
     textures: &'a mut Textures<'d>,
     warnings: &'a mut Warnings,
 }
 
 impl Reader<'_, '_> {
-    fn material(&mut self, json: &MaterialJson) -> Result<Material, Error> {
-        let pbr = &json.pbr_metallic_roughness;
-        let [r, g, b, a] = pbr
-            .base_color_factor
-            .0
-            .map(|c| self.share("baseColorFactor", c));
-        let base_texture = match &pbr.base_color_texture {
-            Some(info) => self.texture("base colour", info, Encoding::Srgb)?,
-            None => None,
-        };
-        let base_color = Textured {
-            factor: Rgb::new(r, g, b),
-            texture: base_texture.clone(),
-        };
-        let coverage = Textured {
-            factor: a,
-            texture: base_texture,
-        };
+    fn material(&mut self, json: &MaterialJson, extended: &Extended) -> Result<Material, Error> {
         let others = json.extensions.as_ref().map(|e| &e.others);
         let unlit = extensions::read::<Unlit>(others, materials_unlit::NAME);
-        let model = match self.valid(unlit) {
-            Some(Unlit {}) => Model::Unlit { color: base_color },
-            None => Model::MetallicRoughness(self.metallic_roughness(json, base_color)?),
+        let unlit = self.valid(unlit);
+        let mut transmission = None;
+        let (model, coverage) = match (&unlit, &extended.specular_glossiness) {
+            (Some(Unlit {}), _) => {
+                let (color, coverage) = self.base_color(json)?;
+                (Model::Unlit { color }, coverage)
+            }
+            (None, Some(glossy)) => {
+                let (diffuse, coverage) = glossy.diffuse(self)?;
+                let occlusion = self.occlusion(json)?;
+                let model = glossy.read(diffuse, occlusion, self)?;
+                (Model::SpecularGlossiness(model), coverage)
+            }
+            (None, None) => {
+                let (base_color, coverage) = self.base_color(json)?;
+                let model = self.metallic_roughness(json, base_color, extended)?;
+                transmission = extended.transmission(self)?;
+                (Model::MetallicRoughness(model), coverage)
+            }
         };
         Ok(Material {
             name: json.name.clone().unwrap_or_default(),
             model,
             emission: self.emission(json)?,
             alpha: self.alpha(json, coverage),
-            transmission: None,
+            transmission,
             normal_map: self.normal_map(json)?,
             double_sided: json.double_sided,
         })
+    }
+
+    /// The base colour and its coverage.
+    fn base_color(&mut self, json: &MaterialJson) -> Result<(Textured<Rgb>, Textured<f32>), Error> {
+        let pbr = &json.pbr_metallic_roughness;
+        let [r, g, b, a] = pbr
+            .base_color_factor
+            .0
+            .map(|c| self.share("baseColorFactor", c));
+        let texture = match &pbr.base_color_texture {
+            Some(info) => self.texture("base colour", info, Encoding::Srgb)?,
+            None => None,
+        };
+        let color = Textured {
+            factor: Rgb::new(r, g, b),
+            texture: texture.clone(),
+        };
+        Ok((color, Textured { factor: a, texture }))
     }
 
     fn metallic_roughness(
         &mut self,
         json: &MaterialJson,
         base_color: Textured<Rgb>,
+        extended: &Extended,
     ) -> Result<MetallicRoughness, Error> {
         let pbr = &json.pbr_metallic_roughness;
         let metallic_roughness = match &pbr.metallic_roughness_texture {
@@ -124,19 +167,23 @@ impl Reader<'_, '_> {
             }
             None => None,
         };
-        let occlusion = match &json.occlusion_texture {
-            Some(info) => Textured {
-                factor: self.share("occlusion strength", info.strength.0),
-                texture: self.texture("occlusion", info, Encoding::Linear)?,
-            },
-            None => Textured::uniform(1.0),
-        };
         Ok(MetallicRoughness {
             base_color,
             metallic: self.share("metallicFactor", pbr.metallic_factor.0),
             roughness: self.share("roughnessFactor", pbr.roughness_factor.0),
             metallic_roughness,
-            occlusion,
+            occlusion: self.occlusion(json)?,
+            finish: extended.finish(self)?,
+        })
+    }
+
+    fn occlusion(&mut self, json: &MaterialJson) -> Result<Textured<f32>, Error> {
+        Ok(match &json.occlusion_texture {
+            Some(info) => Textured {
+                factor: self.share("occlusion strength", info.strength.0),
+                texture: self.texture("occlusion", info, Encoding::Linear)?,
+            },
+            None => Textured::uniform(1.0),
         })
     }
 
@@ -224,20 +271,45 @@ impl Reader<'_, '_> {
         })
     }
 
-    fn share(&mut self, field: &str, value: f32) -> f32 {
+    /// The use of a texture that an extension may name.
+    pub(super) fn slot(
+        &mut self,
+        kind: &str,
+        info: &Option<TextureInfo>,
+        encoding: Encoding,
+    ) -> Result<Option<TextureUse>, Error> {
+        match info {
+            Some(info) => self.texture(kind, info.clone(), encoding),
+            None => Ok(None),
+        }
+    }
+
+    pub(super) fn share(&mut self, field: &str, value: f32) -> f32 {
         self.within(field, value, 1.0)
     }
 
     /// `value`, or what is nearest to it from 0 to `most`.
-    fn within(&mut self, field: &str, value: f32, most: f32) -> f32 {
-        let fits = value.clamp(0.0, most);
+    pub(super) fn within(&mut self, field: &str, value: f32, most: f32) -> f32 {
+        self.between(field, value, 0.0, most)
+    }
+
+    /// `value`, or what is nearest to it from `least` to `most`.
+    pub(super) fn between(&mut self, field: &str, value: f32, least: f32, most: f32) -> f32 {
+        let fits = value.clamp(least, most);
         if fits != value {
             self.warn(&format!("its {field} is {value}, taken as {fits}"));
         }
         fits
     }
 
-    fn warn(&mut self, problem: &str) {
+    /// A colour, each channel from 0 to `most`.
+    pub(super) fn color(&mut self, field: &str, value: [f32; 3], most: f32) -> Rgb {
+        value
+            .map(|channel| self.within(field, channel, most))
+            .into()
+    }
+
+    pub(super) fn warn(&mut self, problem: &str) {
         self.warnings.add(format!("{}: {problem}", self.place));
     }
 }

@@ -2,16 +2,20 @@
 
 use super::buffers::Buffers;
 use super::document::{Document, named};
-use super::primitives::{Drawn, Reader};
-use super::{Warnings, extensions};
+use super::materials_variants::Variants;
+use super::primitives::{Changing, Drawn, Reader};
+use super::{Warnings, draco, morph_targets};
 use crate::Error;
-use crate::load::{ModelMesh, Part};
+use crate::load::pose::Deformation;
+use crate::load::{AnimationChoice, ModelMesh, Part};
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::texture::TextureUse;
+use gltf::json::Index;
+use gltf::json::accessor::Accessor;
 use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// How many corners and vertices a file may come to for each byte of its buffers: one byte can be the index of three
 /// corners in a strip. Files that come to more read the same bytes again and again.
@@ -24,6 +28,8 @@ const FREE_ELEMENTS: u64 = 1 << 20;
 pub(super) struct Geometry {
     /// One for each primitive that draws triangles.
     pub(super) meshes: Vec<Mesh>,
+    /// Of those whose shape something may change, what does.
+    pub(super) deformations: BTreeMap<u32, Deformation>,
     /// One for each mesh of the file, by its index in it.
     pub(super) shapes: Vec<ModelMesh>,
     /// How many triangles.
@@ -34,20 +40,29 @@ pub(super) struct Geometry {
     pub(super) lines: usize,
     /// Triangles that are left out, since a position of theirs is no number.
     not_finite: usize,
-    /// The first extension that holds geometry which is not drawn.
-    compressed_by: Option<&'static str>,
 }
 
 /// What tells primitives apart, but for their material.
-type Key = (
-    Vec<(String, usize)>,
-    Option<usize>,
-    u32,
-    Option<(u8, Option<[u32; 9]>)>,
-);
+#[derive(PartialEq, Eq, Hash)]
+struct Key {
+    attributes: Vec<(String, usize)>,
+    indices: Option<usize>,
+    compressed: Option<draco::Compressed>,
+    mode: u32,
+    /// The set of texture coordinates, and their transform.
+    tangents: Option<(u8, Option<[u32; 9]>)>,
+    changing: Changing,
+    /// Positions, normals, tangents.
+    targets: Vec<[Option<usize>; 3]>,
+}
 
-/// Extensions that hold geometry outside accessors.
-const COMPRESSIONS: [&str; 1] = ["KHR_draco_mesh_compression"];
+/// How many corners and vertices a file may come to.
+pub(super) fn budget(buffers: &Buffers) -> u64 {
+    buffers
+        .total_bytes
+        .saturating_mul(ELEMENTS_A_BYTE)
+        .saturating_add(FREE_ELEMENTS)
+}
 
 /// Reads every mesh of the file. The last of `materials` is the default.
 ///
@@ -58,57 +73,65 @@ pub(super) fn all(
     document: &Document,
     buffers: &Buffers,
     materials: &[Material],
+    variants: &Variants,
     warnings: &mut Warnings,
 ) -> Result<Geometry, Error> {
     let mut geometry = Geometry::default();
     let mut known: HashMap<Key, Option<u32>> = HashMap::new();
-    let mut budget = buffers
-        .total_bytes
-        .saturating_mul(ELEMENTS_A_BYTE)
-        .saturating_add(FREE_ELEMENTS);
+    let mut budget = budget(buffers);
+    let changes = changes(document);
     for (index, mesh) in document.root.meshes.iter().enumerate() {
         let mut shape = ModelMesh {
             name: mesh.name.clone().unwrap_or_default(),
             parts: Vec::new(),
+            weights: match &mesh.weights {
+                Some(weights) => morph_targets::fitting(document, weights, index, warnings),
+                None => Vec::new(),
+            },
         };
+        let changing = changes.get(index).copied().unwrap_or_default();
         let name = named("mesh", index, mesh.name.as_ref());
         for (number, primitive) in mesh.primitives.iter().enumerate() {
-            let reader = Reader {
-                document,
-                buffers,
-                primitive,
-                place: format!("{name}, primitive {number}"),
-            };
-            let place = reader.place.as_str();
+            let place = format!("{name}, primitive {number}");
             let default = materials.len().saturating_sub(1);
-            let material = match primitive.material {
-                Some(index) => document.checked(place, "material", index.value(), default)?,
+            let material = match variants.material(primitive, &place, warnings) {
+                Some(index) => document.checked(place.as_str(), "material", index, default)?,
                 None => default,
             };
-            if let Some(extension) = compression(document, primitive) {
-                warnings.add(format!(
-                    "{place}: its geometry is in {extension} and is not drawn"
-                ));
-                geometry.compressed_by.get_or_insert(extension);
-                continue;
-            }
-            if primitive
-                .targets
-                .as_ref()
-                .is_some_and(|targets| !targets.is_empty())
-            {
-                warnings.add("morph targets are ignored: meshes have their own shape");
-            }
             let Checked::Valid(mode) = primitive.mode else {
-                return Err(document.malformed(place, "its mode is unknown, expected 0 to 6"));
+                return Err(
+                    document.malformed(place.as_str(), "its mode is unknown, expected 0 to 6")
+                );
             };
             let normal_map = materials.get(material).and_then(|m| m.normal_map.as_ref());
             let normal_map = normal_map.map(|map| &map.texture);
-            let key = key(primitive, mode, normal_map);
+            let wrong = |problem| document.malformed(format!("{place}, {}", draco::NAME), problem);
+            let compressed = draco::of(primitive).map_err(wrong)?;
+            let key = key(primitive, &compressed, mode, normal_map, changing);
             let drawn = match known.get(&key) {
                 Some(&drawn) => drawn,
                 None => {
-                    let drawn = reader.read(mode, normal_map, &mut budget, warnings)?;
+                    let stream = compressed
+                        .map(|c| c.unpack(document, buffers, primitive, &mut budget))
+                        .transpose();
+                    let stream = match stream {
+                        Err(problem) if draco::is_optional(document, primitive) => {
+                            warnings.add(format!(
+                                "{place}, {}: {problem}: its accessors are used instead",
+                                draco::NAME
+                            ));
+                            None
+                        }
+                        stream => stream.map_err(wrong)?,
+                    };
+                    let reader = Reader {
+                        document,
+                        buffers,
+                        primitive,
+                        stream,
+                        place: place.clone(),
+                    };
+                    let drawn = reader.read(mode, normal_map, changing, &mut budget, warnings)?;
                     let drawn = geometry.take(drawn, &mesh.name);
                     known.insert(key, drawn);
                     drawn
@@ -138,7 +161,8 @@ impl Geometry {
         match drawn {
             Drawn::Points(count) => self.points += count,
             Drawn::Lines(count) => self.lines += count,
-            Drawn::Triangles(mut mesh, left_out) => {
+            Drawn::Triangles(read, left_out) => {
+                let (mut mesh, deformation) = *read;
                 self.not_finite += left_out;
                 if mesh.triangles.is_empty() {
                     return None;
@@ -146,30 +170,53 @@ impl Geometry {
                 self.triangles += mesh.triangles.len();
                 mesh.name = name.clone().unwrap_or_default();
                 self.meshes.push(mesh);
-                return Some(self.meshes.len() as u32 - 1);
+                let index = self.meshes.len() as u32 - 1;
+                if !deformation.is_empty() {
+                    self.deformations.insert(index, deformation);
+                }
+                return Some(index);
             }
         }
         None
     }
 }
 
-/// The extension that holds a primitive's geometry, where its accessors have no bytes for it.
-fn compression(document: &Document, primitive: &Primitive) -> Option<&'static str> {
-    let others = &primitive.extensions.as_ref()?.others;
-    let name = COMPRESSIONS
-        .into_iter()
-        .find(|&name| others.contains_key(name))?;
-    let has_bytes = |index: usize| {
-        let accessor = document.root.accessors.get(index);
-        // One that does not exist is left to be an error.
-        accessor.is_none_or(|a| a.buffer_view.is_some() || a.sparse.is_some())
-    };
-    let accessors = primitive.attributes.values().chain(&primitive.indices);
-    let whole = accessors.into_iter().all(|index| has_bytes(index.value()));
-    (!whole).then_some(name)
+/// How much each morph target of a mesh counts, where a node does not say it.
+fn weights(document: &Document, mesh: usize) -> &[f32] {
+    let mesh = document.root.meshes.get(mesh);
+    mesh.and_then(|mesh| mesh.weights.as_deref())
+        .unwrap_or_default()
 }
 
-fn key(primitive: &Primitive, mode: Mode, normal_map: Option<&TextureUse>) -> Key {
+/// What may change the shape of each mesh: joints where a node gives it a skin; morph targets where they count, or an
+/// animation may make them count.
+fn changes(document: &Document) -> Vec<Changing> {
+    let count = |weights: &[f32]| weights.iter().any(|&weight| weight != 0.0);
+    let moves =
+        document.options.animation != AnimationChoice::None && !document.root.animations.is_empty();
+    let mut changes: Vec<Changing> = (0..document.root.meshes.len())
+        .map(|mesh| Changing {
+            morphs: moves || count(weights(document, mesh)),
+            bends: false,
+        })
+        .collect();
+    for node in &document.root.nodes {
+        let mesh = node.mesh.and_then(|mesh| changes.get_mut(mesh.value()));
+        if let Some(changing) = mesh {
+            changing.bends |= node.skin.is_some();
+            changing.morphs |= node.weights.as_deref().is_some_and(count);
+        }
+    }
+    changes
+}
+
+fn key(
+    primitive: &Primitive,
+    compressed: &Option<draco::Compressed>,
+    mode: Mode,
+    normal_map: Option<&TextureUse>,
+    changing: Changing,
+) -> Key {
     let attributes = primitive.attributes.iter();
     let attributes = attributes
         .filter_map(|(semantic, accessor)| match semantic {
@@ -182,7 +229,21 @@ fn key(primitive: &Primitive, mode: Mode, normal_map: Option<&TextureUse>) -> Ke
         let transform = map.transform.map(|m| m.to_cols_array().map(f32::to_bits));
         (map.uv_set, transform)
     });
-    (attributes, indices, mode.as_gl_enum(), tangents)
+    let index = |accessor: Option<Index<Accessor>>| accessor.map(|index| index.value());
+    let targets = primitive.targets.iter().flatten();
+    let targets = targets
+        .map(|target| [target.positions, target.normals, target.tangents].map(index))
+        .filter(|_| changing.morphs)
+        .collect();
+    Key {
+        attributes,
+        indices,
+        compressed: compressed.clone(),
+        mode: mode.as_gl_enum(),
+        tangents,
+        changing,
+        targets,
+    }
 }
 
 fn warn_of_missing_coordinates(
@@ -210,19 +271,12 @@ fn warn_of_missing_coordinates(
 
 /// The error for a file of which nothing can be seen.
 pub(super) fn nothing_to_draw(document: &Document, geometry: &Geometry) -> Error {
-    let Some(extension) = geometry.compressed_by else {
-        let what = if geometry.not_finite > 0 {
-            "its triangles have positions that are no numbers"
-        } else if geometry.points + geometry.lines > 0 {
-            "it shows points and lines only, which are not supported"
-        } else {
-            "no node of its scene shows a triangle"
-        };
-        return document.malformed("", format!("has nothing to draw: {what}"));
+    let what = if geometry.not_finite > 0 {
+        "its triangles have positions that are no numbers"
+    } else if geometry.points + geometry.lines > 0 {
+        "it shows points and lines only, which are not supported"
+    } else {
+        "no node of its scene shows a triangle"
     };
-    Error::Unsupported {
-        file: document.file.clone(),
-        what: format!("has its geometry in {extension}, which is not supported"),
-        way_out: extensions::way_out(extension).into(),
-    }
+    document.malformed("", format!("has nothing to draw: {what}"))
 }

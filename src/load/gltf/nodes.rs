@@ -5,10 +5,13 @@
 
 use super::Warnings;
 use super::document::{Document, named};
-use super::{extensions, lights_punctual};
+use super::implicit_shapes::Shapes;
+use super::node_visibility::{self, Visibility};
+use super::{extensions, lights_punctual, mesh_gpu_instancing, morph_targets};
 use crate::Error;
-use crate::load::Node;
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use crate::load::pose::{Factors, is_somewhere};
+use crate::load::{ModelMesh, Node, choice};
+use glam::{DAffine3, DMat3, DVec3};
 use gltf::json::Node as NodeJson;
 
 /// The nodes of a file and those at the top of what is drawn.
@@ -20,21 +23,25 @@ pub(super) struct Tree {
     pub(super) roots: Vec<usize>,
 }
 
-/// What nodes may hold: how many meshes there are, and where in the model each camera and light of the file went.
+/// What nodes may hold: the file's meshes, and where in the model each of its cameras, lights and skins went.
 pub(super) struct Contents<'a> {
-    pub(super) meshes: usize,
+    pub(super) shapes: &'a [ModelMesh],
     pub(super) cameras: &'a [Option<usize>],
     pub(super) lights: &'a [Option<usize>],
+    pub(super) implicit: &'a Shapes,
+    pub(super) skins: &'a [Option<usize>],
 }
 
-/// Reads the nodes of a file and its scene: the one that it names, else its first, else every node without a parent.
+/// Reads the nodes of a file and its scene: the one that the user asks for or the file names, else its first, else every
+/// node without a parent.
 ///
 /// # Errors
 ///
-/// A node is below itself, or an index names nothing.
+/// A node is below itself, an index names nothing, or there is no scene as the user asks for.
 pub(super) fn read(
     document: &Document,
     contents: &Contents,
+    mut instancing: mesh_gpu_instancing::Reader,
     warnings: &mut Warnings,
 ) -> Result<Tree, Error> {
     let count = document.root.nodes.len();
@@ -63,7 +70,17 @@ pub(super) fn read(
     let roots = roots(document, &parents, &order, warnings)?;
     let mut nodes = Vec::with_capacity(count);
     for (index, below) in children.into_iter().enumerate() {
-        nodes.push(one(document, index, below, contents, warnings)?);
+        let mut node = one(document, index, below, contents, warnings)?;
+        let shape = node.shape.and_then(|shape| contents.shapes.get(shape));
+        if let Some(shape) = shape {
+            let instances = instancing.read(&document.root.nodes[index], shape.parts.len());
+            let instances = instances.map_err(|problem| {
+                let name = mesh_gpu_instancing::NAME;
+                document.malformed(format!("{}, {name}", place(document, index)), problem)
+            })?;
+            node.instances = instances;
+        }
+        nodes.push(node);
     }
     let mut tree = Tree { nodes, roots };
     tree.cut_what_is_nowhere(warnings);
@@ -123,13 +140,21 @@ fn roots(
     warnings: &mut Warnings,
 ) -> Result<Vec<usize>, Error> {
     let root = &document.root;
-    let scene = match root.scene {
-        Some(_) if root.scenes.is_empty() => {
+    let scene = match (&document.options.scene, root.scene) {
+        (Some(wanted), _) => {
+            let names = root.scenes.iter().map(|scene| scene.name.as_deref());
+            let names: Vec<&str> = names.map(Option::unwrap_or_default).collect();
+            let found = choice::find("scene", wanted, &names);
+            Some(found.map_err(|problem| document.malformed("", problem))?)
+        }
+        (None, Some(_)) if root.scenes.is_empty() => {
             warnings.add("names a scene and has none: every node without a parent is drawn");
             None
         }
-        Some(index) => Some(document.checked("", "scene", index.value(), root.scenes.len())?),
-        None => (!root.scenes.is_empty()).then_some(0),
+        (None, Some(index)) => {
+            Some(document.checked("", "scene", index.value(), root.scenes.len())?)
+        }
+        (None, None) => (!root.scenes.is_empty()).then_some(0),
     };
     let Some(scene) = scene.and_then(|index| Some((index, root.scenes.get(index)?))) else {
         return Ok((0..parents.len())
@@ -179,7 +204,9 @@ fn one(
     let json = &document.root.nodes[index];
     let place = || place(document, index);
     let shape = match json.mesh {
-        Some(mesh) => Some(document.checked(place(), "mesh", mesh.value(), contents.meshes)?),
+        Some(mesh) => {
+            Some(document.checked(place(), "mesh", mesh.value(), contents.shapes.len())?)
+        }
         None => None,
     };
     let camera = match json.camera {
@@ -202,16 +229,50 @@ fn one(
             None
         }
     };
-    if json.skin.is_some() && shape.is_some() {
-        warnings.add("skins are ignored: a mesh with one stands as its node does");
-    }
+    let skin = match json.skin {
+        Some(_) if shape.is_none() => None,
+        Some(skin) => {
+            let count = contents.skins.len();
+            let known = contents.skins.get(skin.value());
+            if known.is_none() {
+                let skin = skin.value();
+                warnings.add(format!(
+                    "{}: skin {skin} does not exist, there are {count}: it is ignored",
+                    place()
+                ));
+            }
+            known.copied().flatten()
+        }
+        None => None,
+    };
+    let weights = match (&json.weights, shape) {
+        (Some(weights), Some(mesh)) => {
+            Some(morph_targets::fitting(document, weights, mesh, warnings))
+        }
+        _ => None,
+    };
+    let visibility = extensions::read::<Visibility>(others, node_visibility::NAME);
+    let is_hidden = match visibility {
+        Ok(visibility) => visibility.is_some_and(|visibility| !visibility.visible),
+        Err(problem) => {
+            warnings.add(format!("{}: {problem}: it is seen", place()));
+            false
+        }
+    };
     Ok(Node {
         name: json.name.clone().unwrap_or_default(),
         children,
         to_parent: to_parent(json, warnings),
         shape,
+        analytic: contents
+            .implicit
+            .of_node(document, others, &place(), warnings)?,
+        instances: None,
         camera,
         light,
+        skin,
+        weights,
+        is_hidden,
     })
 }
 
@@ -227,21 +288,25 @@ fn to_parent(json: &NodeJson, warnings: &mut Warnings) -> DAffine3 {
         }
         return DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z), w);
     }
-    let vector = |v: Option<[f32; 3]>| v.map(|v| DVec3::from(v.map(f64::from)));
-    let rotation = json.rotation.map_or(DQuat::IDENTITY, |rotation| {
-        let rotation = DQuat::from_array(rotation.0.map(f64::from));
-        if rotation.length_squared() > 0.0 {
-            rotation.normalize()
-        } else {
-            warnings.add("a node's rotation without length is ignored");
-            DQuat::IDENTITY
-        }
-    });
-    DAffine3::from_scale_rotation_translation(
-        vector(json.scale).unwrap_or(DVec3::ONE),
-        rotation,
-        vector(json.translation).unwrap_or_default(),
-    )
+    factors(json, warnings).matrix()
+}
+
+/// A node's transform in the factors that animations change; a matrix has them only as far as it does not shear.
+pub(super) fn factors_of(json: &NodeJson) -> Factors {
+    let mut told_already = Warnings::default();
+    if json.matrix.is_some() {
+        Factors::of(&to_parent(json, &mut told_already))
+    } else {
+        factors(json, &mut told_already)
+    }
+}
+
+fn factors(json: &NodeJson, warnings: &mut Warnings) -> Factors {
+    let rotation = json.rotation.map(|rotation| rotation.0);
+    if rotation == Some([0.0; 4]) {
+        warnings.add("a node's rotation without length is ignored");
+    }
+    Factors::new(json.translation, rotation, json.scale)
 }
 
 impl Tree {
@@ -256,11 +321,14 @@ impl Tree {
         while let Some((index, above)) = open.pop() {
             let node = &mut self.nodes[index];
             let to_model = above * node.to_parent;
-            let is_somewhere = to_model
-                .to_cols_array()
-                .iter()
-                .all(|x| x.abs() <= f64::from(f32::MAX));
-            if is_somewhere {
+            if is_somewhere(&to_model) {
+                if let Some(instances) = &mut node.instances {
+                    let count = instances.len();
+                    instances.retain(|instance| is_somewhere(&(to_model * *instance)));
+                    let problem =
+                        "an instance whose transform is not of finite numbers is not drawn";
+                    warnings.add_times(problem, count - instances.len());
+                }
                 if node.to_parent.matrix3.determinant() == 0.0 {
                     let place = named("node", index, Some(&node.name));
                     warnings.add(format!(

@@ -1,11 +1,14 @@
 //! One primitive of a glTF mesh becomes one mesh of luch.
 
 use super::Warnings;
-use super::accessors::{self, Elements};
+use super::accessors;
 use super::buffers::Buffers;
 use super::document::Document;
-use super::primitive_modes;
+use super::draco::Unpacked;
+use super::elements::Elements;
+use super::{morph_targets, primitive_modes, skins};
 use crate::Error;
+use crate::load::pose::Deformation;
 use crate::load::tangents::{self, TooCrowded};
 use crate::mesh::Mesh;
 use crate::texture::TextureUse;
@@ -19,6 +22,8 @@ pub(super) struct Reader<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a Buffers<'a>,
     pub(super) primitive: &'a Primitive,
+    /// Where it is compressed, what was in its stream.
+    pub(super) stream: Option<Unpacked>,
     /// As in `mesh "chair", primitive 2`.
     pub(super) place: String,
 }
@@ -30,12 +35,22 @@ const BYTES_A_VERTEX: u64 = 64;
 
 /// What a primitive draws.
 pub(super) enum Drawn {
-    /// Triangles, perhaps none, and how many were left out since a position of theirs is no number.
-    Triangles(Mesh, usize),
+    /// Triangles, perhaps none, what may change their shape, and how many were left out since a position of theirs is
+    /// no number.
+    Triangles(Box<(Mesh, Deformation)>, usize),
     /// So many points, which luch does not draw.
     Points(usize),
     /// So many line segments, which luch does not draw.
     Lines(usize),
+}
+
+/// What may change the shape of a primitive, and need not be read where nothing does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(super) struct Changing {
+    /// Morph targets.
+    pub(super) morphs: bool,
+    /// Joints.
+    pub(super) bends: bool,
 }
 
 impl Reader<'_> {
@@ -46,53 +61,53 @@ impl Reader<'_> {
     /// An accessor does not fit, an index is past the last vertex, attributes disagree in number, or the geometry is
     /// more than `budget` (corners and vertices), from which it is taken.
     pub(super) fn read(
-        &self,
+        mut self,
         mode: Mode,
         normal_map: Option<&TextureUse>,
+        changing: Changing,
         budget: &mut u64,
         warnings: &mut Warnings,
     ) -> Result<Drawn, Error> {
+        let in_stream = self.stream.as_mut();
+        let in_stream = in_stream.map(|stream| std::mem::take(&mut stream.triangles));
         let Some(positions) = self.attribute(&Semantic::Positions, "POSITION", &[Type::Vec3], 0)?
         else {
             warnings.add(format!("{}: has no POSITION and is not drawn", self.place));
-            return Ok(Drawn::Triangles(Mesh::default(), 0));
+            return Ok(Drawn::Triangles(Box::default(), 0));
         };
-        let corners = self.corners(&positions, budget)?;
-        let left_over = primitive_modes::left_over(mode, corners.len());
-        warnings.add_times(
-            "a corner that belongs to no whole triangle is ignored",
-            left_over,
-        );
-        match mode {
-            Mode::Points => return Ok(Drawn::Points(corners.len())),
-            Mode::Lines | Mode::LineLoop | Mode::LineStrip => {
-                return Ok(Drawn::Lines(primitive_modes::lines(mode, corners.len())));
-            }
-            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {}
-        }
-        let mut triangles = primitive_modes::triangles(mode, &corners);
-        let before = triangles.len();
-        let position = |i: usize| Vec3::from(positions.floats::<3>(i));
-        triangles.retain(|corners| corners.iter().all(|&i| position(i as usize).is_finite()));
-        let left_out = before - triangles.len();
-        let problem = "a triangle with a position that is no number is not drawn";
-        warnings.add_times(format!("{}: {problem}", self.place), left_out);
+        let mut triangles = match self.faces(mode, in_stream, &positions, budget, warnings)? {
+            Faces::Triangles(triangles) => triangles,
+            Faces::Points(count) => return Ok(Drawn::Points(count)),
+            Faces::Lines(count) => return Ok(Drawn::Lines(count)),
+        };
         let kept = Kept::of(&mut triangles, positions.count);
         self.spend(budget, kept.count(), BYTES_A_VERTEX)?;
         let mut mesh = Mesh {
-            positions: kept.gather(|i| {
-                Some(position(i))
-                    .filter(|p| p.is_finite())
-                    .unwrap_or_default()
-            }),
+            positions: kept.gather(&positions, Vec3::from_array),
             triangles,
             ..Mesh::default()
         };
+        let left_out = leave_out(&mut mesh);
+        let problem = "a triangle with a position that is no number is not drawn";
+        warnings.add_times(format!("{}: {problem}", self.place), left_out);
         self.attributes(&mut mesh, &kept, positions.count, warnings)?;
+        let mut old_vertices = None;
         if let Some(map) = normal_map {
-            mesh = self.tangents(mesh, &kept, positions.count, map, warnings)?;
+            (mesh, old_vertices) = self.tangents(mesh, &kept, positions.count, map, warnings)?;
         }
-        Ok(Drawn::Triangles(mesh, left_out))
+        let mut deformation = Deformation::default();
+        if changing.morphs {
+            let count = positions.count;
+            deformation.targets = self.morph_targets(&mesh, &kept, count, budget, warnings)?;
+        }
+        if changing.bends {
+            self.influences(&mut deformation, &kept, positions.count, budget, warnings)?;
+        }
+        if let Some(old_vertices) = old_vertices {
+            morph_targets::split(&mut deformation.targets, &old_vertices);
+            skins::split(&mut deformation, &old_vertices);
+        }
+        Ok(Drawn::Triangles(Box::new((mesh, deformation)), left_out))
     }
 
     /// Normals, texture coordinates and colours.
@@ -105,7 +120,7 @@ impl Reader<'_> {
     ) -> Result<(), Error> {
         if let Some(normals) = self.attribute(&Semantic::Normals, "NORMAL", &[Type::Vec3], count)? {
             // A zero is what shading takes for "the face's own".
-            mesh.normals = kept.gather(|i| Vec3::from(normals.floats::<3>(i)).normalize_or_zero());
+            mesh.normals = kept.gather(&normals, |n| Vec3::from_array(n).normalize_or_zero());
             let without = mesh.normals.iter().filter(|&&n| n == Vec3::ZERO).count();
             warnings.add_times(
                 "a normal without direction is replaced by its face's",
@@ -115,7 +130,7 @@ impl Reader<'_> {
         for (set, name) in [(0, "TEXCOORD_0"), (1, "TEXCOORD_1")] {
             let uvs = self.attribute(&Semantic::TexCoords(set), name, &[Type::Vec2], count)?;
             if let (Some(uvs), Some(place)) = (uvs, mesh.uvs.get_mut(set as usize)) {
-                *place = kept.gather(|i| Vec2::from(uvs.floats::<2>(i)));
+                *place = kept.gather(&uvs, Vec2::from_array);
                 let is_nowhere = |uv: &&mut Vec2| !uv.is_finite();
                 let nowhere = place.iter_mut().filter(is_nowhere);
                 let count = nowhere.map(|uv| *uv = Vec2::ZERO).count();
@@ -126,8 +141,7 @@ impl Reader<'_> {
         let kinds = [Type::Vec3, Type::Vec4];
         if let Some(colors) = self.attribute(&Semantic::Colors(0), "COLOR_0", &kinds, count)? {
             let has_alpha = colors.components == 4;
-            mesh.colors = kept.gather(|i| {
-                let [r, g, b, a] = colors.floats::<4>(i);
+            mesh.colors = kept.gather(&colors, |[r, g, b, a]| {
                 [r, g, b, if has_alpha { a } else { 1.0 }]
             });
             let mut without = 0;
@@ -144,8 +158,9 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's. The
-    /// file's stay as they are where the map is turned (KHR_texture_transform): who wrote them knew of that.
+    /// `mesh` with the file's tangents or, where those or the normals that they belong to lack, with MikkTSpace's and
+    /// which of the old vertices each was. The file's stay as they are where the map is turned (KHR_texture_transform):
+    /// who wrote them knew of that.
     fn tangents(
         &self,
         mut mesh: Mesh,
@@ -153,35 +168,36 @@ impl Reader<'_> {
         count: usize,
         map: &TextureUse,
         warnings: &mut Warnings,
-    ) -> Result<Mesh, Error> {
+    ) -> Result<(Mesh, Option<Vec<usize>>), Error> {
         let set = usize::from(map.uv_set);
         let given = self.attribute(&Semantic::Tangents, "TANGENT", &[Type::Vec4], count)?;
         if let Some(tangents) = given.filter(|_| !mesh.normals.is_empty()) {
-            mesh.tangents = kept.gather(|i| {
-                let tangent = Vec4::from(tangents.floats::<4>(i));
+            mesh.tangents = kept.gather(&tangents, |tangent| {
+                let tangent = Vec4::from_array(tangent);
                 let along = tangent.truncate().normalize_or_zero();
                 along.extend(if tangent.w < 0.0 { -1.0 } else { 1.0 })
             });
-            return Ok(mesh);
+            return Ok((mesh, None));
         }
         if mesh.uvs.get(set).is_none_or(Vec::is_empty) {
             warnings.add(format!(
                 "{}: has no TEXCOORD_{set}, so that its normal map is ignored",
                 self.place
             ));
-            return Ok(mesh);
+            return Ok((mesh, None));
         }
-        if let Err(TooCrowded) = tangents::add(&mut mesh, set, map.transform.as_ref()) {
+        let split = tangents::add(&mut mesh, set, map.transform.as_ref());
+        if let Err(TooCrowded) = split {
             warnings.add(format!(
                 "{}: too many corners meet in one point for tangents, so that its normal map is ignored",
                 self.place
             ));
         }
-        Ok(mesh)
+        Ok((mesh, split.ok()))
     }
 
     /// An attribute with at least `count` elements, if the primitive has it.
-    fn attribute(
+    pub(super) fn attribute(
         &self,
         semantic: &Semantic,
         name: &str,
@@ -196,7 +212,11 @@ impl Reader<'_> {
             return Ok(None);
         };
         let place = || format!("{}, {name}", self.place);
-        let elements = accessors::read(self.document, self.buffers, index.value(), kinds)
+        let in_stream = self.stream.as_ref();
+        let in_stream = in_stream.map_or(Ok(None), |stream| stream.attribute(name, kinds));
+        let elements = in_stream
+            .transpose()
+            .unwrap_or_else(|| accessors::read(self.document, self.buffers, index.value(), kinds))
             .map_err(|problem| self.document.malformed(place(), problem))?;
         if elements.count < count {
             let problem = format!("has {} elements for {count} positions", elements.count);
@@ -205,16 +225,60 @@ impl Reader<'_> {
         Ok(Some(elements))
     }
 
-    /// The vertices in the order in which they are drawn, all of them in range.
-    fn corners(&self, positions: &Elements, budget: &mut u64) -> Result<Vec<u32>, Error> {
+    /// Which vertices are drawn as what, all of them in range.
+    fn faces(
+        &self,
+        mode: Mode,
+        in_stream: Option<Vec<[u32; 3]>>,
+        positions: &Elements,
+        budget: &mut u64,
+        warnings: &mut Warnings,
+    ) -> Result<Faces, Error> {
         let count = positions.count;
+        if let Some(triangles) = in_stream {
+            // A list, whatever the mode.
+            self.spend(budget, triangles.len() * 3, BYTES_A_CORNER)?;
+            self.check_range(triangles.as_flattened(), count)?;
+            return Ok(Faces::Triangles(triangles));
+        }
+        let indices = self.indices()?;
+        let corners = indices.as_ref().map_or(count, |indices| indices.count);
+        self.spend(budget, corners, BYTES_A_CORNER)?;
+        warnings.add_times(
+            "a corner that belongs to no whole triangle is ignored",
+            primitive_modes::left_over(mode, corners),
+        );
+        if let (Mode::Triangles, Some(indices)) = (mode, &indices) {
+            let triangles = indices.index_triples();
+            self.check_range(triangles.as_flattened(), count)?;
+            return Ok(Faces::Triangles(triangles));
+        }
+        let corners: Vec<u32> = match &indices {
+            Some(indices) => indices.indices(),
+            None => {
+                let end = u32::try_from(count).map_err(|_| {
+                    let problem = format!("{count} vertices are more than 32 bits can number");
+                    self.document.malformed(self.place.as_str(), problem)
+                })?;
+                (0..end).collect()
+            }
+        };
+        self.check_range(&corners, count)?;
+        Ok(match mode {
+            Mode::Points => Faces::Points(corners.len()),
+            Mode::Lines | Mode::LineLoop | Mode::LineStrip => {
+                Faces::Lines(primitive_modes::lines(mode, corners.len()))
+            }
+            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {
+                Faces::Triangles(primitive_modes::triangles(mode, &corners))
+            }
+        })
+    }
+
+    /// The primitive's indices, if it has any.
+    fn indices(&self) -> Result<Option<Elements<'_>>, Error> {
         let Some(accessor) = self.primitive.indices else {
-            self.spend(budget, count, BYTES_A_CORNER)?;
-            let end = u32::try_from(count).map_err(|_| {
-                let problem = format!("{count} vertices are more than 32 bits can number");
-                self.document.malformed(self.place.as_str(), problem)
-            })?;
-            return Ok((0..end).collect());
+            return Ok(None);
         };
         let place = || format!("{}, indices", self.place);
         let wrong = |problem: String| self.document.malformed(place(), problem);
@@ -226,22 +290,27 @@ impl Reader<'_> {
                 "are signed or fractions, expected unsigned integers".into(),
             ));
         }
-        self.spend(budget, indices.count, BYTES_A_CORNER)?;
-        let corners: Vec<u32> = (0..indices.count).map(|i| indices.index(i)).collect();
-        match corners.iter().find(|&&vertex| vertex as usize >= count) {
-            None => Ok(corners),
-            Some(vertex) => {
-                let problem = match count.checked_sub(1) {
-                    Some(last) => format!("index {vertex} is past the last vertex ({last})"),
-                    None => format!("index {vertex} names a vertex, there are none"),
-                };
-                Err(self.document.malformed(self.place.as_str(), problem))
-            }
-        }
+        Ok(Some(indices))
+    }
+
+    fn check_range(&self, corners: &[u32], count: usize) -> Result<(), Error> {
+        let Some(vertex) = corners.iter().find(|&&vertex| vertex as usize >= count) else {
+            return Ok(());
+        };
+        let problem = match count.checked_sub(1) {
+            Some(last) => format!("index {vertex} is past the last vertex ({last})"),
+            None => format!("index {vertex} names a vertex, there are none"),
+        };
+        Err(self.document.malformed(self.place.as_str(), problem))
     }
 
     /// Takes elements from the file's allowance, and their memory.
-    fn spend(&self, budget: &mut u64, elements: usize, bytes_each: u64) -> Result<(), Error> {
+    pub(super) fn spend(
+        &self,
+        budget: &mut u64,
+        elements: usize,
+        bytes_each: u64,
+    ) -> Result<(), Error> {
         let bytes = bytes_each.saturating_mul(elements as u64);
         self.document.take(bytes, self.place.as_str())?;
         match budget.checked_sub(elements as u64) {
@@ -257,9 +326,42 @@ impl Reader<'_> {
     }
 }
 
+/// What the corners of a primitive make.
+enum Faces {
+    Triangles(Vec<[u32; 3]>),
+    Points(usize),
+    Lines(usize),
+}
+
+/// Drops triangles with a position that is no number, and says how many.
+fn leave_out(mesh: &mut Mesh) -> usize {
+    if mesh.positions.iter().all(|position| position.is_finite()) {
+        return 0;
+    }
+    let Mesh {
+        positions,
+        triangles,
+        ..
+    } = mesh;
+    let before = triangles.len();
+    let is_finite = |&vertex: &u32| {
+        positions
+            .get(vertex as usize)
+            .is_some_and(|p| p.is_finite())
+    };
+    triangles.retain(|corners| corners.iter().all(is_finite));
+    for position in positions
+        .iter_mut()
+        .filter(|position| !position.is_finite())
+    {
+        *position = Vec3::ZERO;
+    }
+    before - triangles.len()
+}
+
 /// Which of an accessor's vertices a mesh keeps. Files share one long accessor between many primitives; each keeps
 /// only what it draws.
-enum Kept {
+pub(super) enum Kept {
     All(usize),
     /// In rising order.
     Some(Vec<u32>),
@@ -281,17 +383,41 @@ impl Kept {
         Kept::Some(used)
     }
 
-    fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         match self {
             Kept::All(count) => *count,
             Kept::Some(used) => used.len(),
         }
     }
 
-    fn gather<T>(&self, at: impl Fn(usize) -> T) -> Vec<T> {
+    /// Where vertex `old` of the accessor went, if it is kept.
+    pub(super) fn place_of(&self, old: u32) -> Option<u32> {
         match self {
-            Kept::All(count) => (0..*count).map(at).collect(),
-            Kept::Some(used) => used.iter().map(|&i| at(i as usize)).collect(),
+            Kept::All(_) => Some(old),
+            Kept::Some(used) => used.binary_search(&old).ok().map(|place| place as u32),
+        }
+    }
+
+    /// The kept vertices of the accessor, in order.
+    pub(super) fn vertices(&self) -> Vec<u32> {
+        match self {
+            Kept::All(count) => (0..*count as u32).collect(),
+            Kept::Some(used) => used.clone(),
+        }
+    }
+
+    /// What `make` makes of each of the kept vertices' elements.
+    fn gather<const N: usize, T: Send>(
+        &self,
+        elements: &Elements,
+        make: impl Fn([f32; N]) -> T + Sync,
+    ) -> Vec<T> {
+        match self {
+            Kept::All(count) => elements.first(*count, make),
+            Kept::Some(used) => {
+                let used = used.iter();
+                used.map(|&i| make(elements.floats(i as usize))).collect()
+            }
         }
     }
 }
@@ -299,19 +425,26 @@ impl Kept {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gltf::json::accessor::ComponentType;
+
+    /// What is kept of the vertices 0, 1, 2 and so on.
+    fn kept(triangles: &mut [[u32; 3]], count: usize) -> Vec<f32> {
+        let bytes: Vec<u8> = (0..count).flat_map(|i| (i as f32).to_le_bytes()).collect();
+        let elements = Elements::packed(&bytes, count, 1, ComponentType::F32, false);
+        Kept::of(triangles, count).gather(&elements, |[i]| i)
+    }
 
     #[test]
     fn a_small_part_of_a_long_accessor_keeps_its_own_vertices_only() {
         let mut triangles = vec![[90, 7, 40], [40, 7, 3]];
-        let kept = Kept::of(&mut triangles, 100);
-        assert_eq!(kept.gather(|i| i), [3, 7, 40, 90]);
+        assert_eq!(kept(&mut triangles, 100), [3., 7., 40., 90.]);
         assert_eq!(triangles, [[3, 1, 2], [2, 1, 0]]);
     }
 
     #[test]
     fn a_whole_accessor_is_kept_as_it_is() {
         let mut triangles = vec![[2, 1, 0]];
-        assert_eq!(Kept::of(&mut triangles, 4).gather(|i| i), [0, 1, 2, 3]);
+        assert_eq!(kept(&mut triangles, 4), [0., 1., 2., 3.]);
         assert_eq!(triangles, [[2, 1, 0]]);
     }
 }

@@ -18,6 +18,9 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 /// No JPEG has more for each byte of its file: the least is one bit for 64 pixels.
 const MOST_PIXELS_A_BYTE: u64 = 1 << 10;
 
+/// Coefficients of 16 bits (all of them, where it is progressive) of up to four components, then RGB, then RGBA.
+const BYTES_A_PIXEL: u64 = 15;
+
 /// The end-of-image marker.
 const END: [u8; 2] = [0xff, 0xd9];
 
@@ -34,7 +37,11 @@ pub(super) fn header(bytes: &[u8]) -> Result<Header, String> {
     decoder.decode_headers().map_err(|e| said("JPEG", e))?;
     let (width, height) = decoder.dimensions().unwrap_or_default();
     let most = most_pixels(bytes, MOST_PIXELS_A_BYTE);
-    Header::checked(width as u64, height as u64, 1, most)
+    let header = Header::checked(width as u64, height as u64, 1, most)?;
+    Ok(Header {
+        bytes_a_pixel: BYTES_A_PIXEL,
+        ..header
+    })
 }
 
 /// The pixels of a file whose header is right, and what is wrong with them.

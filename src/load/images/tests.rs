@@ -4,6 +4,7 @@
 
 use super::samples::{self, from_hex};
 use super::*;
+use crate::load::Options;
 use crate::texture::Pixels;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, Rgba};
 use std::io::Cursor;
@@ -249,4 +250,22 @@ fn a_header_tells_how_much_memory_the_pixels_take() {
     let grey = ImageBuffer::from_pixel(3, 2, Luma([513_u16]));
     let png = encoded(DynamicImage::ImageLuma16(grey), ImageFormat::Png);
     assert_eq!(header("", &png).map(|h| h.bytes_decoded()), Ok(3 * 2 * 8));
+}
+
+#[test]
+fn pixels_come_from_the_budget_before_they_are_decoded() {
+    let grey = ImageBuffer::from_pixel(1000, 1000, Luma([7_u8]));
+    let png = encoded(grey, ImageFormat::Png);
+    let within = |bytes| {
+        let options = Options {
+            max_memory: Some(bytes),
+            ..Options::default()
+        };
+        decode_within("", &png, &Budget::of(&options))
+    };
+    assert_eq!(
+        within(7_000_000).unwrap_err(),
+        "1000 x 1000 pixels: takes 8 MB of memory, 7 MB are left; make it smaller, or allow more with --max-memory"
+    );
+    assert!(within(8_000_000).is_ok());
 }

@@ -85,7 +85,7 @@ fn pixel_count(image: &Image) -> usize {
 }
 
 /// A pixel in 0..1, as stored.
-fn pixel(image: &Image, at: usize) -> [f64; 4] {
+pub(super) fn pixel(image: &Image, at: usize) -> [f64; 4] {
     match &image.pixels {
         Pixels::Eight(pixels) => {
             let pixel = pixels.get(at).copied().unwrap_or_default();

@@ -1,8 +1,10 @@
-//! Where a file lies that an OBJ or an MTL names: writers leave paths of their own machine.
+//! Where a file lies that an OBJ or an MTL names: writers leave paths of their own machine, and strangers' files may not
+//! have others read from this one.
 
+use crate::load::Options;
 use std::collections::HashMap;
 use std::ffi::OsString;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// Where a file lies.
 #[derive(Debug, PartialEq, Eq)]
@@ -13,32 +15,108 @@ pub(super) enum Found {
     Elsewhere(PathBuf),
     /// Nowhere.
     Missing,
+    /// Where a model's files may not lie, or at what is no file; the end of a sentence that says which.
+    Refused(&'static str),
 }
+
+/// What is said of a file elsewhere on the disk.
+const LEADS_OUT: &str =
+    "leads out of the model's folder; move it beside the model or use --allow-external";
+
+/// What is said of a device, a pipe or a folder.
+const NO_FILE: &str = "is no file";
 
 /// Looks for files; remembers the folders it has listed.
 #[derive(Default)]
 pub(super) struct Finder {
+    /// The folder of the model, and that of the file its path is a link to, as the disk has them.
+    roots: Vec<PathBuf>,
+    allows_external: bool,
     /// The names in a folder by their lower case.
     listings: HashMap<PathBuf, HashMap<String, OsString>>,
 }
 
 impl Finder {
+    /// For the files of `model`.
+    pub(super) fn new(model: &Path, options: &Options) -> Finder {
+        let here = Path::new(".");
+        let folder_of = |path: &Path| match path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder.canonicalize(),
+            _ => here.canonicalize(),
+        };
+        let linked = model.canonicalize().and_then(|path| folder_of(&path));
+        Finder {
+            roots: [folder_of(model), linked].into_iter().flatten().collect(),
+            allows_external: options.allow_external,
+            listings: HashMap::new(),
+        }
+    }
+
+    /// Whether a file may be read: the one place that decides.
+    fn allows(&self, path: &Path) -> bool {
+        let lies_below = |path: PathBuf| self.roots.iter().any(|root| path.starts_with(root));
+        self.allows_external || path.canonicalize().is_ok_and(lies_below)
+    }
+
+    /// Whether the words of a path alone lead out.
+    fn leads_out(&self, folder: &Path, reference: &str) -> bool {
+        let folder = if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            folder
+        };
+        let mut path = folder.canonicalize().unwrap_or_default();
+        for component in Path::new(reference).components() {
+            match component {
+                Component::ParentDir => drop(path.pop()),
+                other => path.push(other),
+            }
+        }
+        !self.roots.iter().any(|root| path.starts_with(root))
+    }
+
     /// Looks for `reference` from each of `folders`, the earlier first.
     ///
-    /// Backslashes part folders as slashes do. An absolute path is not followed: the same model would look different
-    /// on another machine. Only its name is looked for.
+    /// Backslashes part folders as slashes do, except before blanks, which they keep in a name. Of a path that is absolute or leads out of the model's folder only the
+    /// name is looked for, unless files elsewhere are allowed.
     pub(super) fn find(&mut self, reference: &str, folders: &[PathBuf]) -> Found {
-        let reference = reference.replace('\\', "/");
+        let reference = reference.replace("\\ ", " ").replace('\\', "/");
         let name = reference.rsplit('/').next().unwrap_or_default();
         if name.is_empty() || name == "." || name == ".." {
             return Found::Missing;
         }
-        let has_drive = reference.as_bytes().get(1) == Some(&b':');
-        if !has_drive && !reference.starts_with('/') {
-            let named = folders.iter().map(|folder| folder.join(&reference));
-            if let Some(path) = named.into_iter().find(|path| path.is_file()) {
-                return Found::AsNamed(path);
+        let mut refused = None;
+        // `file:`, drives and addresses on the net are no paths of this machine.
+        let is_foreign = reference
+            .split('/')
+            .next()
+            .is_some_and(|first| first.contains(':'))
+            && !folders
+                .iter()
+                .any(|folder| folder.join(&reference).exists());
+        if is_foreign {
+            refused = Some(LEADS_OUT);
+        } else {
+            for folder in folders {
+                // An absolute path replaces the folder.
+                let path = folder.join(&reference);
+                if path.is_file() && self.allows(&path) {
+                    return Found::AsNamed(path);
+                }
+                // Whether it is there is not said of what leads out.
+                if !self.allows_external && self.leads_out(folder, &reference) {
+                    refused = Some(LEADS_OUT);
+                } else if path.exists() {
+                    let why = if self.allows(&path) {
+                        NO_FILE
+                    } else {
+                        LEADS_OUT
+                    };
+                    refused = refused.or(Some(why));
+                }
             }
+        }
+        if !is_foreign && !reference.starts_with('/') {
             for folder in folders {
                 let path = folder.join(&reference);
                 let parent = path.parent().unwrap_or(folder);
@@ -52,13 +130,13 @@ impl Finder {
                 return Found::Elsewhere(path);
             }
         }
-        Found::Missing
+        refused.map_or(Found::Missing, Found::Refused)
     }
 
     /// A file in a folder, whatever the capitals of its name.
     fn in_any_case(&mut self, folder: &Path, name: &str) -> Option<PathBuf> {
         let exact = folder.join(name);
-        if exact.is_file() {
+        if exact.is_file() && self.allows(&exact) {
             return Some(exact);
         }
         let names = self
@@ -66,7 +144,7 @@ impl Finder {
             .entry(folder.to_owned())
             .or_insert_with(|| listing(folder));
         let path = folder.join(names.get(&name.to_lowercase())?);
-        path.is_file().then_some(path)
+        (path.is_file() && self.allows(&path)).then_some(path)
     }
 }
 
@@ -102,7 +180,16 @@ mod tests {
     }
 
     fn find(folder: &Path, reference: &str) -> Found {
-        Finder::default().find(reference, &[folder.to_owned()])
+        find_with(folder, reference, false)
+    }
+
+    fn find_with(folder: &Path, reference: &str, allow_external: bool) -> Found {
+        let options = Options {
+            allow_external,
+            ..Options::default()
+        };
+        let mut finder = Finder::new(&folder.join("model.obj"), &options);
+        finder.find(reference, &[folder.to_owned()])
     }
 
     #[test]
@@ -113,6 +200,7 @@ mod tests {
             assert_eq!(find(folder.path(), reference), at(reference));
         }
         assert_eq!(find(folder.path(), "maps\\Oak.png"), at("maps/Oak.png"));
+        assert_eq!(find(folder.path(), "a\\ b.png"), at("a b.png"));
     }
 
     #[test]
@@ -133,18 +221,55 @@ mod tests {
     }
 
     #[test]
-    fn an_absolute_path_is_not_followed() {
+    fn what_lies_elsewhere_is_read_only_where_that_is_allowed() {
         let folder = folder();
-        let elsewhere = tempfile::tempdir().unwrap();
+        let below = folder.path().join("maps");
         let absolute = folder.path().join("a b.png");
-        let absolute = absolute.to_str().unwrap();
-        assert_eq!(find(elsewhere.path(), absolute), Found::Missing);
+        for reference in [absolute.to_str().unwrap(), "../a b.png"] {
+            assert_eq!(find(&below, reference), Found::Refused(LEADS_OUT));
+            let allowed = find_with(&below, reference, true);
+            assert_eq!(allowed, Found::AsNamed(below.join(reference)));
+        }
+        // Inside, however the path goes about it.
+        let about = "../maps/Oak.png";
+        assert_eq!(find(&below, about), Found::AsNamed(below.join(about)));
+        for reference in [
+            "file:///etc/passwd",
+            "C:/gone.png",
+            "http://a.b/c.png",
+            "/gone.png",
+            "../gone.png",
+            "a/../../gone.png",
+        ] {
+            assert_eq!(find(&below, reference), Found::Refused(LEADS_OUT));
+        }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_before_it_is_judged() {
+        use std::os::unix::fs::symlink;
+        let folder = folder();
+        let below = folder.path().join("maps");
+        symlink("../Brick.PNG", below.join("out.png")).unwrap();
+        symlink("Oak.png", below.join("in.png")).unwrap();
+        symlink("/dev/zero", below.join("zero.png")).unwrap();
+        assert_eq!(find(&below, "out.png"), Found::Refused(LEADS_OUT));
+        assert_eq!(find(&below, "zero.png"), Found::Refused(LEADS_OUT));
+        assert_eq!(find(&below, "in.png"), Found::AsNamed(below.join("in.png")));
+        // A user's link to a model: its files may lie beside the link or beside the model.
+        std::fs::write(below.join("model.obj"), "x").unwrap();
+        symlink("maps/model.obj", folder.path().join("link.obj")).unwrap();
+        let mut finder = Finder::new(&folder.path().join("link.obj"), &Options::default());
+        let found = finder.find("Oak.png", std::slice::from_ref(&below));
+        assert_eq!(found, Found::AsNamed(below.join("Oak.png")));
     }
 
     #[test]
     fn folders_and_nothing_are_no_files() {
         let folder = folder();
-        for reference in ["maps", "", "..", "maps/", "gone.png"] {
+        assert_eq!(find(folder.path(), "maps"), Found::Refused(NO_FILE));
+        for reference in ["", "..", "maps/", "gone.png"] {
             assert_eq!(find(folder.path(), reference), Found::Missing);
         }
     }

@@ -5,6 +5,7 @@ use super::geometry::Geometry;
 use super::mtl::{self, MtlMaterial};
 use super::text::{plain, shown};
 use crate::load::{Budget, Model, files, text_bytes};
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -32,8 +33,8 @@ pub(super) fn read_libraries(
     for names in &geometry.libraries {
         // `mtllib` may list several files, and the name of one may have blanks.
         let all = match finder.find(names, &folders) {
-            Found::Missing => separate_libraries(names),
-            _ => vec![names.as_str()],
+            Found::Missing | Found::Refused(_) => separate_libraries(names),
+            Found::AsNamed(_) | Found::Elsewhere(_) => vec![names.as_str()],
         };
         for name in all {
             let Some(path) = library_path(model, &finder.find(name, &folders), name) else {
@@ -45,7 +46,45 @@ pub(super) fn read_libraries(
             }
         }
     }
+    read_namesake(model, geometry, finder, budget, &read, &mut known);
     known
+}
+
+/// The MTL that has the OBJ's own name, for materials that are in none the OBJ names: files are renamed together, and
+/// what `mtllib` says is forgotten.
+fn read_namesake(
+    model: &mut Model,
+    geometry: &Geometry,
+    finder: &mut Finder,
+    budget: &Budget,
+    read: &HashSet<PathBuf>,
+    known: &mut HashMap<String, Known>,
+) {
+    if geometry
+        .materials
+        .iter()
+        .all(|name| known.contains_key(name))
+    {
+        return;
+    }
+    let namesake = model.file.with_extension("mtl");
+    let name = namesake.file_name().unwrap_or_default().to_string_lossy();
+    let (Found::AsNamed(path) | Found::Elsewhere(path)) =
+        finder.find(&name, &[folder_of(&namesake)])
+    else {
+        return;
+    };
+    if read.contains(&path.canonicalize().unwrap_or_else(|_| path.clone())) {
+        return;
+    }
+    let mut more = HashMap::new();
+    read_library(model, &path, budget, &mut more);
+    more.retain(|name, _| !known.contains_key(name));
+    known.extend(more);
+    let shown = shown(name.as_bytes());
+    model.warnings.add(format!(
+        "materials that no mtllib leads to are looked for in \"{shown}\", which has the model's name"
+    ));
 }
 
 /// The names in a list: each ends in `.mtl`, so that blanks within names are kept.
@@ -86,6 +125,12 @@ fn library_path(model: &mut Model, found: &Found, name: &str) -> Option<PathBuf>
                 .add(format!("MTL \"{name}\" is missing; its materials are grey"));
             None
         }
+        Found::Refused(why) => {
+            model
+                .warnings
+                .add(format!("MTL \"{name}\" {why}; its materials are grey"));
+            None
+        }
     }
 }
 
@@ -117,10 +162,12 @@ fn read_library(
     for mtl in mtl::read(&plain(&bytes), &file, &mut model.warnings) {
         let (name, shown) = (mtl.name.clone(), shown(mtl.name.as_bytes()));
         let folder = folder.clone();
-        if known.insert(name, Known { mtl, folder }).is_some() {
-            model.warnings.add(format!(
-                "{file}: material \"{shown}\" was there before; the later one counts"
-            ));
+        match known.entry(name) {
+            // As in Blender.
+            Entry::Occupied(_) => model.warnings.add(format!(
+                "{file}: material \"{shown}\" was there before; the earlier one counts"
+            )),
+            Entry::Vacant(place) => drop(place.insert(Known { mtl, folder })),
         }
     }
 }

@@ -5,8 +5,11 @@
 //! - 0: a colour that light does not change.
 //! - 1: diffuse alone.
 //! - 2, or none: diffuse and highlight.
-//! - 3 to 9: also a mirror, `Ks` of whose light comes back (without Fresnel's law, and nothing refracts).
+//! - 3 to 9: also a mirror, `Ks` of whose light comes back (without Fresnel's law).
+//! - 4, 6, 7, 9: light may go through as well: see `glass.rs`.
 //! - 10, shadows on what is not there: as 2.
+//!
+//! Statements of the PBR extension make it metallic-roughness, whatever `illum`: see `pbr.rs`.
 //!
 //! `Ns 0` is no highlight: MeshLab writes it beside `Ks 1 1 1` for what has none, and an exponent of 0 would pour light
 //! over all of it.
@@ -17,6 +20,7 @@
 use super::mtl::MtlMaterial;
 use super::text::shown;
 use super::textures::Textures;
+use super::{glass, pbr};
 use crate::color::Rgb;
 use crate::material::{Alpha, AlphaMode, Material, Model, Phong, Textured};
 
@@ -33,65 +37,77 @@ pub(super) fn default_material() -> Material {
 
 /// A material with its textures, or, where they are missing, without.
 pub(super) fn material(mtl: &MtlMaterial, textures: &mut Textures) -> Material {
-    let diffuse_map = textures.color(mtl.diffuse_map.as_ref());
-    let diffuse = Textured {
-        factor: factor(
-            mtl,
-            mtl.diffuse,
-            diffuse_map.is_some(),
-            "Kd",
-            GREY,
-            textures,
-        ),
-        texture: diffuse_map,
+    let mut diffuse = diffuse(mtl, textures);
+    let emission = emission(mtl, textures);
+    let dissolve = dissolve(mtl, textures);
+    let glass = glass::glass(mtl, diffuse.factor, dissolve);
+    if let Some(glass) = &glass {
+        diffuse.factor = glass.tint;
+    }
+    let is_unlit = mtl.illumination == Some(0);
+    let mut model = match mtl.is_pbr {
+        true => Model::MetallicRoughness(pbr::metallic_roughness(mtl, diffuse, textures)),
+        false if is_unlit => Model::Unlit { color: diffuse },
+        false => Model::Phong(lit(mtl, diffuse, textures)),
     };
-    let emission_map = textures.color(mtl.emission_map.as_ref());
-    let emission = Textured {
-        factor: factor(
-            mtl,
-            mtl.emission,
-            emission_map.is_some(),
-            "Ke",
-            Rgb::BLACK,
-            textures,
-        ),
-        texture: emission_map,
-    };
-    let illumination = mtl.illumination.unwrap_or(2);
-    let model = match illumination {
-        0 => Model::Unlit { color: diffuse },
-        1 => Model::Phong(phong(diffuse, Textured::uniform(Rgb::BLACK), 0.0)),
-        _ => {
-            let texture = textures.color(mtl.specular_map.as_ref());
-            let absent = if texture.is_some() {
-                Rgb::WHITE
-            } else {
-                Rgb::BLACK
-            };
-            let factor = mtl.specular.unwrap_or(absent);
-            let specular = Textured { factor, texture };
-            let shininess = mtl.shininess.unwrap_or(SHININESS);
-            let highlight = if shininess > 0.0 {
-                specular
-            } else {
-                Textured::uniform(Rgb::BLACK)
-            };
-            let mut phong = phong(diffuse, highlight, shininess);
-            if (3..=9).contains(&illumination) {
-                phong.reflectivity = factor.map(|share| share.min(1.0));
-            }
-            Model::Phong(phong)
-        }
-    };
+    if let (Some(_), Model::Phong(phong)) = (&glass, &mut model) {
+        phong.reflectivity = Rgb::BLACK;
+    }
+    let coverage = if glass.is_some() { 1.0 } else { dissolve };
     Material {
         name: mtl.name.clone(),
         model,
         emission,
-        alpha: alpha(mtl, textures),
-        transmission: None,
+        alpha: alpha(mtl, coverage, textures),
+        transmission: glass.map(|glass| glass.transmission),
         normal_map: textures.normals(mtl.normal_map.as_ref(), mtl.bump_map.as_ref()),
         double_sided: true,
     }
+}
+
+fn diffuse(mtl: &MtlMaterial, textures: &mut Textures) -> Textured<Rgb> {
+    let texture = textures.color(mtl.diffuse_map.as_ref());
+    let has_texture = texture.is_some();
+    Textured {
+        factor: factor(mtl, mtl.diffuse, has_texture, "Kd", GREY, textures),
+        texture,
+    }
+}
+
+fn emission(mtl: &MtlMaterial, textures: &mut Textures) -> Textured<Rgb> {
+    let texture = textures.color(mtl.emission_map.as_ref());
+    let has_texture = texture.is_some();
+    Textured {
+        factor: factor(mtl, mtl.emission, has_texture, "Ke", Rgb::BLACK, textures),
+        texture,
+    }
+}
+
+/// What `illum` 1 to 10 have of the paper's surfaces.
+fn lit(mtl: &MtlMaterial, diffuse: Textured<Rgb>, textures: &mut Textures) -> Phong {
+    let illumination = mtl.illumination.unwrap_or(2);
+    if illumination == 1 {
+        return phong(diffuse, Textured::uniform(Rgb::BLACK), 0.0);
+    }
+    let texture = textures.color(mtl.specular_map.as_ref());
+    let absent = if texture.is_some() {
+        Rgb::WHITE
+    } else {
+        Rgb::BLACK
+    };
+    let factor = mtl.specular.unwrap_or(absent);
+    let specular = Textured { factor, texture };
+    let shininess = mtl.shininess.unwrap_or(SHININESS);
+    let highlight = if shininess > 0.0 {
+        specular
+    } else {
+        Textured::uniform(Rgb::BLACK)
+    };
+    let mut phong = phong(diffuse, highlight, shininess);
+    if (3..=9).contains(&illumination) {
+        phong.reflectivity = factor.map(|share| share.min(1.0));
+    }
+    phong
 }
 
 fn phong(diffuse: Textured<Rgb>, specular: Textured<Rgb>, shininess: f32) -> Phong {
@@ -127,9 +143,11 @@ fn factor(
     }
 }
 
-fn alpha(mtl: &MtlMaterial, textures: &mut Textures) -> Alpha {
-    let factor = match (mtl.dissolve, mtl.transparency) {
-        (Some(0.0), _) => {
+/// `d`, or what `Tr` says of it: the share that covers.
+fn dissolve(mtl: &MtlMaterial, textures: &mut Textures) -> f32 {
+    let is_glass = matches!(mtl.illumination, Some(4 | 6 | 7 | 9));
+    match (mtl.dissolve, mtl.transparency) {
+        (Some(0.0), _) if !is_glass => {
             let name = shown(mtl.name.as_bytes());
             textures
                 .warnings
@@ -137,7 +155,7 @@ fn alpha(mtl: &MtlMaterial, textures: &mut Textures) -> Alpha {
             0.0
         }
         (Some(dissolve), _) => dissolve,
-        (None, Some(1.0)) => {
+        (None, Some(1.0)) if !is_glass => {
             let name = shown(mtl.name.as_bytes());
             textures.warnings.add(format!(
                 "material \"{name}\": Tr 1 would hide it and is taken as opaque; write d 0 to hide it"
@@ -145,7 +163,10 @@ fn alpha(mtl: &MtlMaterial, textures: &mut Textures) -> Alpha {
             1.0
         }
         (None, transparency) => 1.0 - transparency.unwrap_or(0.0),
-    };
+    }
+}
+
+fn alpha(mtl: &MtlMaterial, factor: f32, textures: &mut Textures) -> Alpha {
     match textures.coverage(mtl.dissolve_map.as_ref()) {
         None if factor == 1.0 => Alpha::OPAQUE,
         None => Alpha {
@@ -169,6 +190,7 @@ mod tests {
     use super::*;
     use crate::load::Warnings;
     use crate::load::obj::mtl;
+    use crate::material::Volume;
 
     fn made(statements: &str) -> (Material, usize) {
         let text = format!("newmtl a\n{statements}");
@@ -232,6 +254,77 @@ mod tests {
             let (material, told) = made(statements);
             assert_eq!((material.alpha, told), (alpha, warnings), "{statements}");
         }
+    }
+
+    #[test]
+    fn glass_is_what_says_how_much_light_it_lets_through() {
+        let body = Some(Volume {
+            attenuation_color: Rgb::WHITE,
+            attenuation_distance: f32::INFINITY,
+        });
+        for (statements, expected) in [
+            // How Maya writes what is opaque, and Blender what is a mirror.
+            ("illum 4\nTf 1 1 1\nNi 1\nKs 1 1 1", None),
+            ("illum 4\nTf 1 1 1", None),
+            ("illum 7\nNi 1.5", None),
+            ("illum 7\nd .5", None),
+            ("illum 7\nNi 1.5\nTf 0 0 0", None),
+            // Under another model Tf is no more than a habit of writers.
+            ("illum 2\nNi 1.5\nTf 1 1 1", None),
+            (
+                "illum 7\nNi 1.5\nTf .5 1 2",
+                Some((1.0, 1.5, body, Rgb::new(0.5, 1.0, 1.0))),
+            ),
+            (
+                "illum 4\nNi 1.3\nTf 1 1 1\nd .1",
+                Some((1.0, 1.3, body, Rgb::WHITE)),
+            ),
+            (
+                "illum 6\nNi 2\nd .25\nKd 1 0 0",
+                Some((0.75, 2.0, body, Rgb::new(1.0, 0.0, 0.0))),
+            ),
+            (
+                "illum 6\nNi 2\nTr 1\nKd 0 0 0",
+                Some((1.0, 2.0, body, Rgb::WHITE)),
+            ),
+            (
+                "illum 9\nNi 1.45\nd 0\nKd 0 1 0",
+                Some((1.0, 1.45, None, Rgb::new(0.0, 1.0, 0.0))),
+            ),
+            ("illum 4\nd .5", Some((0.5, 1.5, None, GREY))),
+        ] {
+            let (material, _) = made(statements);
+            let Model::Phong(phong) = &material.model else {
+                panic!("{statements}")
+            };
+            let found = material
+                .transmission
+                .as_ref()
+                .map(|t| (t.share.factor, t.ior, t.volume, phong.diffuse.factor));
+            assert_eq!(found, expected, "{statements}");
+            if found.is_some() {
+                assert_eq!(material.alpha, Alpha::OPAQUE, "{statements}");
+                assert_eq!(phong.reflectivity, Rgb::BLACK, "{statements}");
+            }
+        }
+    }
+
+    #[test]
+    fn statements_of_the_pbr_extension_make_metallic_roughness() {
+        let rough = |statements: &str| match made(statements).0.model {
+            Model::MetallicRoughness(made) => {
+                (made.base_color.factor, made.metallic, made.roughness)
+            }
+            other => panic!("{other:?}"),
+        };
+        let red = Rgb::new(1.0, 0.0, 0.0);
+        assert_eq!(rough("Kd 1 0 0\nPr .25\nPm .75"), (red, 0.75, 0.25));
+        // Blender: 1 - sqrt(Ns / 1000).
+        assert_eq!(rough("Kd 1 0 0\nPm 1\nNs 250"), (red, 1.0, 0.5));
+        assert_eq!(rough("Kd 1 0 0\nPc 1\nNs 4000\nillum 0"), (red, 0.0, 0.0));
+        assert_eq!(rough("map_Pr gone.png\nPm 1"), (GREY, 1.0, 0.5));
+        // Ke and norm are of the extension, too, but old files have them.
+        phong_of("Ke 1 1 1\nnorm gone.png");
     }
 
     #[test]

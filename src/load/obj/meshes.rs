@@ -1,6 +1,6 @@
 //! From the faces of one object and one material to a mesh.
 
-use super::geometry::{Corner, Geometry, Group, NONE};
+use super::geometry::{Corner, Geometry, Group, NONE, NOWHERE};
 use super::polygon::{Triangulator, newell_normal};
 use crate::mesh::Mesh;
 use glam::{DVec3, Vec2, Vec3};
@@ -59,7 +59,7 @@ impl<'a> MeshMaker<'a> {
         let geometry = self.geometry;
         let faces = || group.faces.iter().flat_map(Clone::clone);
         let corners = || faces().flat_map(|face| geometry.face(face));
-        let has_normals = faces().any(|face| is_smooth(geometry, face));
+        let has_normals = corners().any(|&corner| unit_normal(geometry, corner).is_some());
         let (mut mesh, mut mended) = (Mesh::default(), Mended::default());
         for face in faces() {
             mended.dropped += self.add_face(&mut mesh, face, has_normals);
@@ -88,6 +88,9 @@ impl<'a> MeshMaker<'a> {
     fn add_face(&mut self, mesh: &mut Mesh, face: u32, has_normals: bool) -> usize {
         let geometry = self.geometry;
         let corners = geometry.face(face);
+        if corners.first() == Some(&NOWHERE) {
+            return 0;
+        }
         let polygon = corners
             .iter()
             .map(|&corner| position(geometry, corner).as_dvec3());
@@ -96,8 +99,9 @@ impl<'a> MeshMaker<'a> {
         if !self.polygon.iter().all(|p| p.is_finite()) {
             return corners.len().saturating_sub(2);
         }
-        let is_flat = has_normals && !is_smooth(geometry, face);
-        let flat = is_flat.then(|| {
+        let is_bare = |&corner: &Corner| unit_normal(geometry, corner).is_none();
+        let has_bare = has_normals && corners.iter().any(is_bare);
+        let flat = has_bare.then(|| {
             newell_normal(&self.polygon)
                 .normalize_or(DVec3::Y)
                 .as_vec3()
@@ -105,10 +109,10 @@ impl<'a> MeshMaker<'a> {
         for triangle in self.triangulator.cut(&self.polygon) {
             let vertices = triangle.map(|at| {
                 let corner = corners.get(at as usize).copied().unwrap_or(NOWHERE);
-                let normal = flat.or_else(|| unit_normal(geometry, corner));
-                let (vertex, is_new) = match (has_normals, flat) {
-                    (true, None) => self.weld.vertex(corner),
-                    (true, Some(_)) => (self.weld.new_vertex(corner), true),
+                let normal = unit_normal(geometry, corner);
+                let (vertex, is_new) = match (has_normals, normal) {
+                    (true, Some(_)) => self.weld.vertex(corner),
+                    (true, None) => (self.weld.new_vertex(corner), true),
                     (false, _) => self.weld.vertex(Corner {
                         normal: NONE,
                         ..corner
@@ -116,7 +120,7 @@ impl<'a> MeshMaker<'a> {
                 };
                 if is_new {
                     mesh.positions.push(position(geometry, corner));
-                    mesh.normals.extend(normal.filter(|_| has_normals));
+                    mesh.normals.extend(normal.or(flat).filter(|_| has_normals));
                 }
                 vertex
             });
@@ -157,12 +161,6 @@ impl Weld {
     }
 }
 
-const NOWHERE: Corner = Corner {
-    position: NONE,
-    uv: NONE,
-    normal: NONE,
-};
-
 fn position(geometry: &Geometry, corner: Corner) -> Vec3 {
     let position = geometry.positions.get(corner.position as usize);
     position.copied().unwrap_or_default()
@@ -172,12 +170,6 @@ fn position(geometry: &Geometry, corner: Corner) -> Vec3 {
 fn unit_normal(geometry: &Geometry, corner: Corner) -> Option<Vec3> {
     let normal = geometry.normals.get(corner.normal as usize).copied();
     normal.filter(|&normal| normal != Vec3::ZERO)
-}
-
-/// Whether every corner of a face has a normal.
-fn is_smooth(geometry: &Geometry, face: u32) -> bool {
-    let mut corners = geometry.face(face).iter();
-    corners.all(|&corner| unit_normal(geometry, corner).is_some())
 }
 
 impl Mended {

@@ -23,12 +23,26 @@ pub(super) struct MtlMaterial {
     pub(super) transparency: Option<f32>,
     /// `illum`.
     pub(super) illumination: Option<u32>,
+    /// `Ni`, above zero.
+    pub(super) ior: Option<f32>,
+    /// `Tf`, zero or more.
+    pub(super) filter: Option<Rgb>,
+    /// `Pr`, in 0..1.
+    pub(super) roughness: Option<f32>,
+    /// `Pm`, in 0..1.
+    pub(super) metal: Option<f32>,
+    /// Whether any statement is of the PBR extension.
+    pub(super) is_pbr: bool,
     /// `map_Kd`.
     pub(super) diffuse_map: Option<Map>,
     /// `map_Ks`.
     pub(super) specular_map: Option<Map>,
     /// `map_Ke`.
     pub(super) emission_map: Option<Map>,
+    /// `map_Pr`.
+    pub(super) roughness_map: Option<Map>,
+    /// `map_Pm`.
+    pub(super) metal_map: Option<Map>,
     /// `map_d`.
     pub(super) dissolve_map: Option<Map>,
     /// `map_Bump` or `bump`.
@@ -86,6 +100,13 @@ pub(super) fn read(text: &[u8], file: &str, warnings: &mut Warnings) -> Vec<MtlM
     materials
 }
 
+/// The statements of the PBR extension (http://exocortex.com/blog/extending_wavefront_mtl_to_support_pbr), but for `Ke`
+/// and `norm`, which others use as well.
+const PBR: [&[u8]; 12] = [
+    b"pr", b"pm", b"ps", b"pc", b"pcr", b"aniso", b"anisor", b"map_pr", b"map_pm", b"map_ps",
+    b"map_pc", b"map_pcr",
+];
+
 impl MtlMaterial {
     /// Takes a statement over; whether luch knows it.
     fn set(
@@ -95,13 +116,21 @@ impl MtlMaterial {
         ignored: &mut Vec<String>,
     ) -> Result<bool, String> {
         // Writers do not agree on capitals: map_Bump and map_bump, map_kD.
-        match keyword.to_ascii_lowercase().as_slice() {
+        let keyword = keyword.to_ascii_lowercase();
+        self.is_pbr |= PBR.contains(&keyword.as_slice());
+        match keyword.as_slice() {
             b"kd" => self.diffuse = Some(color(words)?),
             b"ks" => self.specular = Some(color(words)?),
             b"ke" => self.emission = Some(color(words)?),
             b"ns" => self.shininess = Some(amount(words)?),
             b"d" => self.dissolve = Some(share(words)?),
             b"tr" => self.transparency = Some(share(words)?),
+            b"ni" => self.ior = Some(index_of_refraction(words)?),
+            b"tf" => self.filter = Some(color(words)?),
+            b"pr" => self.roughness = Some(share(words)?),
+            b"pm" => self.metal = Some(share(words)?),
+            b"map_pr" => self.roughness_map = Some(Map::read(words, ignored)?),
+            b"map_pm" => self.metal_map = Some(Map::read(words, ignored)?),
             b"illum" => self.illumination = Some(illumination(words)?),
             b"map_kd" => self.diffuse_map = Some(Map::read(words, ignored)?),
             b"map_ks" => self.specular_map = Some(Map::read(words, ignored)?),
@@ -109,9 +138,8 @@ impl MtlMaterial {
             b"map_d" => self.dissolve_map = Some(Map::read(words, ignored)?),
             b"map_bump" | b"bump" => self.bump_map = Some(Map::read(words, ignored)?),
             b"norm" | b"map_norm" | b"map_kn" => self.normal_map = Some(Map::read(words, ignored)?),
-            // Nearly every file has them, and luch has no use for them: ambient light falls on the diffuse colour, and
-            // nothing refracts.
-            b"ka" | b"map_ka" | b"ni" | b"tf" | b"sharpness" => {}
+            // Nearly every file has them, and luch has no use for them: ambient light falls on the diffuse colour.
+            b"ka" | b"map_ka" | b"sharpness" => {}
             _ => return Ok(false),
         }
         Ok(true)
@@ -146,6 +174,13 @@ fn amount(mut words: Words) -> Result<f32, String> {
         (1, [amount]) if amount >= 0.0 => Ok(amount),
         (1, [amount]) => Err(format!("is {amount}, expected 0 or more")),
         _ => Err("has no number, expected one".into()),
+    }
+}
+
+fn index_of_refraction(words: Words) -> Result<f32, String> {
+    match amount(words)? {
+        0.0 => Err("is 0, expected an index of refraction, as 1.5".into()),
+        index => Ok(index),
     }
 }
 
@@ -239,6 +274,8 @@ mod tests {
                 "d depends on the view (-halo), expected a number",
             ),
             ("Tr", "Tr has no number, expected one"),
+            ("Ni 0", "Ni is 0, expected an index of refraction, as 1.5"),
+            ("Pr 2", "Pr is 2, expected a share from 0 to 1"),
             ("illum 99", "illum is \"99\", expected 0 to 10"),
             ("map_Kd", "map_Kd names no texture"),
         ];
@@ -262,11 +299,11 @@ mod tests {
 
     #[test]
     fn each_unknown_kind_is_told_once() {
-        let (_, warnings) = read_all("newmtl a\nPr 1\nPr 2\nmap_Kd -mm 0 1 a.png\n");
+        let (_, warnings) = read_all("newmtl a\nPc 1\nPc 2\nmap_Kd -mm 0 1 a.png\n");
         assert_eq!(
             warnings,
             [
-                "a.mtl: statement \"Pr\" is not supported and ignored (2 times)",
+                "a.mtl: statement \"Pc\" is not supported and ignored (2 times)",
                 "a.mtl: texture option -mm is not supported and ignored"
             ]
         );

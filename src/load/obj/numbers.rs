@@ -43,14 +43,18 @@ pub(super) fn index(digits: &[u8], kind: &str, count: usize) -> Result<Index, St
         [b'+', rest @ ..] => (false, rest),
         rest => (false, rest),
     };
-    if magnitude.is_empty() || !magnitude.iter().all(u8::is_ascii_digit) {
-        return Err(format!("face has \"{}\", expected an index", shown(digits)));
+    let no_index = || format!("face has \"{}\", expected an index", shown(digits));
+    if magnitude.is_empty() {
+        return Err(no_index());
     }
-    let value = magnitude.iter().fold(0u64, |value, digit| {
-        value
-            .saturating_mul(10)
-            .saturating_add(u64::from(digit - b'0'))
-    });
+    let mut value = 0u64;
+    for byte in magnitude {
+        let digit = byte.wrapping_sub(b'0');
+        if digit > 9 {
+            return Err(no_index());
+        }
+        value = value.saturating_mul(10).saturating_add(u64::from(digit));
+    }
     let index = match (value, is_negative) {
         (0, _) => {
             let problem = format!("face names {kind} 0, indices start at 1");

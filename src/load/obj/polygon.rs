@@ -61,11 +61,25 @@ impl Triangulator {
             self.halve(corners.len() as u32);
         } else {
             self.clip(corners, normal);
-            if self.triangles.is_empty() {
+            if self.triangles.is_empty() || self.has_lost_a_side(corners, normal) {
+                self.triangles.clear();
                 self.triangles.extend(fan);
             }
         }
         &self.triangles
+    }
+
+    /// Whether corners of a polygon that is not flat fell on one line, and with them a triangle that stands upright. All
+    /// triangles of a cut have the area vector of the polygon together; what is missing in its own direction overlaps.
+    fn has_lost_a_side(&self, corners: &[DVec3], normal: DVec3) -> bool {
+        const SMALL_SHARE: f64 = 1e-3;
+        let at = |i: u32| corners.get(i as usize).copied().unwrap_or_default();
+        let sum = self.triangles.iter().fold(DVec3::ZERO, |sum, &[a, b, c]| {
+            sum + (at(b) - at(a)).cross(at(c) - at(a))
+        });
+        let along = normal.normalize_or_zero();
+        let upright = (normal - sum).reject_from_normalized(along);
+        upright.length() > SMALL_SHARE * normal.length()
     }
 
     fn takes_on(&mut self, corners: usize) -> bool {
@@ -91,18 +105,13 @@ impl Triangulator {
     }
 
     fn clip(&mut self, corners: &[DVec3], normal: DVec3) {
-        // Dropping the axis along which the normal is longest keeps what is concave concave.
-        let along = normal.abs();
-        let flatten = |p: &DVec3| match along {
-            a if a.x >= a.y && a.x >= a.z => [p.y, p.z],
-            a if a.y >= a.z => [p.z, p.x],
-            _ => [p.x, p.y],
+        // Onto the plane that it lies in most nearly. Dropping an axis instead can put the corners of one that is not flat
+        // on one line, and lose them.
+        let Some((across, up)) = normal.try_normalize().map(|n| n.any_orthonormal_pair()) else {
+            return;
         };
-        let mirrors = match along {
-            a if a.x >= a.y && a.x >= a.z => normal.x < 0.0,
-            a if a.y >= a.z => normal.y < 0.0,
-            _ => normal.z < 0.0,
-        };
+        let first = corners.first().copied().unwrap_or_default();
+        let flatten = |&p: &DVec3| [(p - first).dot(across), (p - first).dot(up)];
         self.flat.clear();
         self.flat.extend(corners.iter().map(flatten));
         self.earcut.earcut_slice(&self.flat, &[], &mut self.indices);
@@ -110,7 +119,7 @@ impl Triangulator {
             let [p, q, r] =
                 [a, b, c].map(|i| self.flat.get(i as usize).copied().unwrap_or_default());
             let area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-            let turned = (area < 0.0) != mirrors;
+            let turned = area < 0.0;
             self.triangles
                 .push(if turned { [a, c, b] } else { [a, b, c] });
         }
@@ -176,6 +185,39 @@ mod tests {
                 assert!((same_side - 36.0 * stretch * stretch).abs() < 1e-9);
             }
         }
+    }
+
+    #[test]
+    fn a_polygon_that_is_not_flat_keeps_every_corner() {
+        // A square and a gable on its edge, which lies on one line with it as the whole is seen.
+        let roof = [
+            [-1., 0., 1.],
+            [1., 0., 1.],
+            [1., 0., -1.],
+            [-1., 0., -1.],
+            [0., 1., -1.],
+        ];
+        let corners = roof.map(DVec3::from_array);
+        let mut triangulator = Triangulator::new();
+        let triangles = triangulator.cut(&corners);
+        assert_eq!(triangles.len(), 3);
+        assert!(triangles.iter().any(|corners| corners.contains(&4)));
+    }
+
+    #[test]
+    fn a_polygon_around_a_hole_leaves_the_hole() {
+        // Blender and others write a square with a square hole as one outline that runs in and out by the same way.
+        let outer = [[0., 0.], [4., 0.], [4., 4.], [0., 4.]];
+        let inner = [[1., 1.], [1., 3.], [3., 3.], [3., 1.]];
+        let mut outline = outer.to_vec();
+        outline.push(outer[0]);
+        outline.extend(inner);
+        outline.push(inner[0]);
+        let corners = flat(&outline);
+        let mut triangulator = Triangulator::new();
+        let triangles = triangulator.cut(&corners).to_vec();
+        assert!((area(&corners, &triangles) - 12.0).abs() < 1e-12);
+        assert!((area_vector(&corners, &triangles).z - 24.0).abs() < 1e-12);
     }
 
     #[test]

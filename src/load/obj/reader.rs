@@ -1,6 +1,6 @@
 //! An OBJ file, statement by statement.
 
-use super::geometry::{BadLine, Corner, Face, Geometry, Group, NONE};
+use super::geometry::{BadLine, Corner, Face, Geometry, Group, NONE, NOWHERE};
 use super::numbers::{Index, index, no_such, numbers};
 use super::text::{Words, name, shown};
 use crate::color::srgb_to_linear;
@@ -53,7 +53,9 @@ pub(super) struct Reader {
     runs: Vec<Run>,
     run_start: u32,
     smooths: bool,
-    smooth_faces: usize,
+    /// Colours of `#MRGB`, of the vertices just before the next one.
+    painted: Vec<[u8; 3]>,
+    dropped: usize,
     weighted: usize,
     strayed: usize,
     brightest: f32,
@@ -67,6 +69,7 @@ impl Reader {
             return Ok(());
         };
         match keyword {
+            b"#MRGB" => self.polypaint(words),
             [b'#', ..] => {}
             b"v" => return self.vertex(words),
             b"vt" => {
@@ -80,7 +83,13 @@ impl Reader {
                 self.read.normals.push(unit.as_vec3());
             }
             // `fo` is what `f` was called before version 2.11 of the format.
-            b"f" | b"fo" => return self.face(line, words),
+            b"f" | b"fo" => {
+                let start = self.read.corners.len();
+                if let Err(problem) = self.face(line, words) {
+                    self.read.corners.truncate(start);
+                    self.drop_face(line, problem);
+                }
+            }
             b"p" => self.read.points += words.count(),
             b"l" => self.read.lines += words.count().saturating_sub(1),
             b"o" => {
@@ -97,7 +106,7 @@ impl Reader {
                 self.material = (!name.is_empty()).then(|| self.materials.index(name));
             }
             b"mtllib" => self.read.libraries.push(name(words.rest())),
-            b"s" => self.smooths = !matches!(words.next(), None | Some(b"off" | b"0")),
+            b"s" => self.smooths = !matches!(words.next(), None | Some(b"off" | b"0" | b"null")),
             unknown => self.read.warnings.add(format!(
                 "statement \"{}\" is not supported and ignored",
                 shown(unknown)
@@ -110,6 +119,7 @@ impl Reader {
     fn vertex(&mut self, words: Words) -> Result<(), String> {
         let (numbers, count) = numbers::<7>(words, 3, "a vertex", "x y z")?;
         let [x, y, z, fourth, g, b, a] = numbers;
+        self.end_polypaint();
         let before = self.read.positions.len();
         self.read.positions.push(Vec3::new(x, y, z));
         let color = match count {
@@ -135,12 +145,41 @@ impl Reader {
         Ok(())
     }
 
+    /// ZBrush's colours: eight hexadecimal digits each, a mask, red, green and blue, for as many vertices before it.
+    fn polypaint(&mut self, words: Words) {
+        for word in words {
+            for digits in word.as_chunks::<8>().0 {
+                let text = str::from_utf8(digits).unwrap_or_default();
+                let Ok(color) = u32::from_str_radix(text, 16) else {
+                    return;
+                };
+                let [_, r, g, b] = color.to_be_bytes();
+                self.painted.push([r, g, b]);
+            }
+        }
+    }
+
+    /// Gives the colours of `#MRGB` to their vertices, the latest.
+    fn end_polypaint(&mut self) {
+        if self.painted.is_empty() {
+            return;
+        }
+        let count = self.read.positions.len();
+        self.read.colors.resize(count, WHITE);
+        let skipped = self.painted.len().saturating_sub(count);
+        let first = count.saturating_sub(self.painted.len());
+        let colors = self.read.colors.get_mut(first..).unwrap_or_default();
+        for (color, painted) in colors.iter_mut().zip(self.painted.iter().skip(skipped)) {
+            let [r, g, b] = painted.map(|channel| f32::from(channel) / 255.0);
+            *color = [r, g, b, 1.0];
+        }
+        self.painted.clear();
+    }
+
     fn face(&mut self, line: u32, words: Words) -> Result<(), String> {
         let start = self.read.corners.len();
-        let mut has_normals = true;
         for word in words.take_while(|word| !word.starts_with(b"#")) {
             let corner = self.corner(word)?;
-            has_normals &= corner.normal != NONE;
             self.read.corners.push(corner);
         }
         match self.read.corners.len() - start {
@@ -149,13 +188,26 @@ impl Reader {
             2 => self.read.lines += 1,
             _ => {
                 let end = self.read.corners.len() as u32;
-                self.read.faces.push(Face { line, end });
-                self.smooth_faces += usize::from(self.smooths && !has_normals);
+                let is_smooth = self.smooths;
+                self.read.faces.push(Face {
+                    line,
+                    end,
+                    is_smooth,
+                });
                 return Ok(());
             }
         }
         self.read.corners.truncate(start);
         Ok(())
+    }
+
+    /// Goes on without a face: no index after it means another thing for that.
+    fn drop_face(&mut self, line: u32, problem: String) {
+        self.dropped += 1;
+        let first = &mut self.read.first_dropped;
+        if first.as_ref().is_none_or(|first| line < first.line) {
+            *first = Some(BadLine { line, problem });
+        }
     }
 
     fn corner(&mut self, word: &[u8]) -> Result<Corner, String> {
@@ -212,9 +264,10 @@ impl Reader {
     }
 
     /// All of it, checked.
-    pub(super) fn finish(mut self) -> Result<Geometry, BadLine> {
+    pub(super) fn finish(mut self) -> Geometry {
         self.end_run();
-        self.check_indices()?;
+        self.end_polypaint();
+        self.check_indices();
         self.sort_into_groups();
         self.finish_colors();
         let warnings = &mut self.read.warnings;
@@ -228,30 +281,36 @@ impl Reader {
             "a corner names a texture coordinate or a normal that is not there, and has none",
             self.strayed,
         );
-        warnings.add_times(
-            "a face without normals is flat: smoothing groups are not supported",
-            self.smooth_faces,
-        );
+        if let Some(BadLine { line, problem }) = &self.read.first_dropped {
+            let first = format!("line {line}: {problem}; the face is left out");
+            warnings.add(first);
+            warnings.add_times(
+                "a further face with a wrong line is left out",
+                self.dropped.saturating_sub(1),
+            );
+        }
         self.read.materials = self.materials.list;
-        Ok(self.read)
+        self.read
     }
 
-    /// Only now: a face may name vertices that come after it. Without its vertex a face has no shape; without a texture
-    /// coordinate or a normal it still has one.
-    fn check_indices(&mut self) -> Result<(), BadLine> {
+    /// Only now: a face may name vertices that come after it. Without its vertex a face has no shape and is left out;
+    /// without a texture coordinate or a normal it still has one.
+    fn check_indices(&mut self) {
         let read = &mut self.read;
         let count = read.positions.len();
         let (uvs, normals) = (read.uvs.len(), read.normals.len());
         let mut start = 0;
+        let mut missing = Vec::new();
         for face in &read.faces {
             let end = face.end as usize;
-            for corner in read.corners.get_mut(start..end).unwrap_or_default() {
-                if corner.position as usize >= count {
-                    return Err(BadLine {
-                        line: face.line,
-                        problem: no_such("vertex", u64::from(corner.position) + 1, count),
-                    });
-                }
+            let corners = read.corners.get_mut(start..end).unwrap_or_default();
+            start = end;
+            if let Some(bad) = corners.iter().find(|c| c.position as usize >= count) {
+                missing.push((face.line, u64::from(bad.position) + 1));
+                corners.iter_mut().for_each(|corner| *corner = NOWHERE);
+                continue;
+            }
+            for corner in corners {
                 for (index, count) in [(&mut corner.uv, uvs), (&mut corner.normal, normals)] {
                     if *index as usize >= count && *index != NONE {
                         *index = NONE;
@@ -259,13 +318,15 @@ impl Reader {
                     }
                 }
             }
-            start = end;
         }
-        Ok(())
+        for (line, index) in missing {
+            self.drop_face(line, no_such("vertex", index, count));
+        }
     }
 
     fn sort_into_groups(&mut self) {
         let has_objects = !self.objects.list.is_empty();
+        self.read.has_objects = has_objects;
         let mut names = if has_objects {
             std::mem::take(&mut self.objects)
         } else {

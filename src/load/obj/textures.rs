@@ -3,6 +3,7 @@
 use super::bump;
 use super::find::{Finder, Found};
 use super::map::Map;
+use super::pbr;
 use super::text::shown;
 use crate::load::{Budget, TextureFacts, Warnings, files, images};
 use crate::material::{AlphaChannel, NormalMap};
@@ -15,7 +16,7 @@ use std::sync::Arc;
 /// All textures of a model, and where to look for more.
 #[derive(Default)]
 pub(super) struct Textures {
-    budget: Budget,
+    pub(super) budget: Budget,
     /// Of the MTL at hand, then of the OBJ.
     pub(super) folders: Vec<PathBuf>,
     pub(super) finder: Finder,
@@ -27,13 +28,19 @@ pub(super) struct Textures {
     images: HashMap<PathBuf, Option<Arc<Image>>>,
     /// Normals by the file of their heights, whether it repeats, and the channel.
     from_heights: HashMap<(String, bool, Option<u8>), Arc<Image>>,
+    /// Roughness with metalness, by the file and the channel of both.
+    packed: HashMap<(Channel, Channel), Arc<Image>>,
     missing: HashSet<String>,
 }
 
+/// A file's name, and `-imfchan`.
+type Channel = (String, Option<u8>);
+
 impl Textures {
     /// None yet; their memory comes from the budget.
-    pub(super) fn within(budget: &Budget) -> Textures {
+    pub(super) fn new(finder: Finder, budget: &Budget) -> Textures {
         Textures {
+            finder,
             budget: budget.clone(),
             ..Textures::default()
         }
@@ -80,6 +87,45 @@ impl Textures {
         })
     }
 
+    /// Roughness in green and metalness in blue, from a picture of each.
+    pub(super) fn roughness_and_metal(
+        &mut self,
+        roughness: Option<&Map>,
+        metal: Option<&Map>,
+    ) -> Option<TextureUse> {
+        let mut with_image = |map: Option<&'_ Map>| {
+            let map = map?;
+            Some((self.image(map)?, map.clone()))
+        };
+        let (roughness, metal) = (with_image(roughness), with_image(metal));
+        let map = roughness.as_ref().or(metal.as_ref())?.1.clone();
+        if let (Some((_, one)), Some((_, other))) = (&roughness, &metal)
+            && (one.scale, one.offset, one.clamps) != (other.scale, other.offset, other.clamps)
+        {
+            self.warnings
+                .add("map_Pm has other options than map_Pr, whose options both have");
+        }
+        let part = |from: &Option<(Arc<Image>, Map)>| match from {
+            Some((image, map)) => (image.name.clone(), map.channel),
+            None => (String::new(), None),
+        };
+        let key = (part(&roughness), part(&metal));
+        let image = match self.packed.get(&key) {
+            Some(known) => known.clone(),
+            None => {
+                fn of(from: &Option<(Arc<Image>, Map)>) -> Option<(&Image, Option<u8>)> {
+                    let (image, map) = from.as_ref()?;
+                    Some((image, map.channel))
+                }
+                let name = format!("{} {}", key.0.0, key.1.0);
+                let image = Arc::new(pbr::packed(name, of(&roughness), of(&metal))?);
+                self.packed.insert(key, image.clone());
+                image
+            }
+        };
+        Some(self.used(image, &map, Encoding::Linear))
+    }
+
     fn normals_of(&mut self, heights: &Image, map: &Map) -> Arc<Image> {
         let key = (heights.name.clone(), map.clamps, map.channel);
         let normals = self.from_heights.entry(key).or_insert_with(|| {
@@ -116,14 +162,6 @@ impl Textures {
         }
     }
 
-    /// Decodes an image, if there is the memory for it and as much again three times on the way.
-    fn decode(&self, name: &str, bytes: &[u8]) -> Result<images::Decoded, String> {
-        let needs = 4 * images::header(name, bytes)?.bytes_decoded();
-        let taken = self.budget.take(needs);
-        taken.map_err(|problem| problem.to_string())?;
-        images::decode(name, bytes)
-    }
-
     fn image(&mut self, map: &Map) -> Option<Arc<Image>> {
         let shown = shown(map.name.as_bytes());
         let path = match self.finder.find(&map.name, &self.folders) {
@@ -135,9 +173,11 @@ impl Textures {
                 ));
                 path
             }
-            Found::Missing => {
-                self.warnings
-                    .add(format!("texture \"{shown}\" is missing and not used"));
+            absent => {
+                self.warnings.add(match absent {
+                    Found::Refused(why) => format!("texture \"{shown}\" {why}; it is not used"),
+                    _ => format!("texture \"{shown}\" is missing and not used"),
+                });
                 if self.missing.insert(map.name.clone()) {
                     self.facts.push(TextureFacts {
                         name: map.name.clone(),
@@ -157,7 +197,7 @@ impl Textures {
             .map_err(|error| error.to_string())
             .and_then(|bytes| {
                 self.files.push(path.clone());
-                self.decode(&name, &bytes)
+                images::decode_within(&name, &bytes, &self.budget)
                     .map_err(|problem| format!("{name}: {problem}"))
             });
         let image = match decoded {

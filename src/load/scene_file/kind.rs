@@ -109,6 +109,21 @@ pub(super) const COLOR: Kind<Rgb> = Kind {
     },
 };
 
+/// What is left of light: a colour of shares.
+pub(super) const FILTER: Kind<Rgb> = Kind {
+    expected: "three numbers from 0 to 1, [red, green, blue]",
+    read: |value| {
+        let color = (COLOR.read)(value);
+        color.filter(|color| color.max_component() <= 1.0)
+    },
+};
+
+/// Whether something is so.
+pub(super) const TRUE_OR_FALSE: Kind<bool> = Kind {
+    expected: "true or false",
+    read: |value| value.as_bool(),
+};
+
 /// A quaternion of any length but none, which becomes unit length.
 pub(super) const ROTATION: Kind<DQuat> = Kind {
     expected: "a quaternion of four finite numbers, [x, y, z, w], that are not all 0",

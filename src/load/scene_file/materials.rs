@@ -4,6 +4,7 @@ use super::kind::{ABOVE_ZERO, COLOR, NOT_NEGATIVE, SHARE, TEXT};
 use super::nearest::suggestion;
 use super::source::quoted;
 use super::table::{Schema, Table};
+use super::transmission;
 use crate::Error;
 use crate::color::Rgb;
 use crate::material::{Alpha, Material, Model, Phong, Textured};
@@ -21,6 +22,12 @@ const MATERIAL: Schema = Schema {
         "reflectivity",
         "emission",
         "checker",
+        "transmission",
+        "ior",
+        "thin",
+        "attenuation_color",
+        "attenuation_distance",
+        "dispersion",
     ],
 };
 
@@ -126,8 +133,14 @@ fn material(table: &Table<'_>) -> Result<Material, Error> {
             size: checker.required("size", &ABOVE_ZERO)?,
         }),
     };
+    let transmission = transmission::read(table)?;
+    // What light goes through is clear where no colour is written, what it does not is grey.
+    let default_color = match &transmission {
+        Some(_) => Rgb::WHITE,
+        None => Rgb::grey(0.8),
+    };
     let phong = Phong {
-        diffuse: color("diffuse", Rgb::grey(0.8))?,
+        diffuse: color("diffuse", default_color)?,
         specular: color("specular", Rgb::BLACK)?,
         shininess: table.or("shininess", &NOT_NEGATIVE, 32.0)?,
         reflectivity: Rgb::grey(table.or("reflectivity", &SHARE, 0.0)?),
@@ -138,7 +151,7 @@ fn material(table: &Table<'_>) -> Result<Material, Error> {
         model: Model::Phong(phong),
         emission: color("emission", Rgb::BLACK)?,
         alpha: Alpha::OPAQUE,
-        transmission: None,
+        transmission,
         normal_map: None,
         double_sided: true,
     })

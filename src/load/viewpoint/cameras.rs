@@ -5,18 +5,20 @@ use super::{CameraChoice, Choices, Viewpoint};
 use crate::Error;
 use crate::camera::{Camera, Clip, Fov, Projection};
 use crate::framing;
-use crate::load::{Asset, CameraSource};
+use crate::load::pose::Pose;
+use crate::load::{Asset, CameraSource, PlacedModel, choice};
 use crate::scene::SceneDescription;
 use glam::DVec3;
 
 /// The camera that the user, the file or the framing gives, with the field of view that the user asks for.
 pub(in crate::load) fn camera(
     asset: &Asset,
+    cameras: &[PlacedCamera],
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
-    let camera = chosen_camera(asset, viewpoint, scene, choices)?;
+    let camera = chosen_camera(asset, cameras, viewpoint, scene, choices)?;
     let asked = viewpoint
         .fov_y
         .map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
@@ -28,13 +30,13 @@ pub(in crate::load) fn camera(
 
 fn chosen_camera(
     asset: &Asset,
+    cameras: &[PlacedCamera],
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
 ) -> Result<Camera, Error> {
     let of_file = |name: &str| {
-        camera_of_model(asset, name)
-            .ok_or_else(|| Error::malformed(&asset.file, "", no_such_camera(asset, name)))
+        camera_of_model(cameras, name).map_err(|problem| Error::malformed(&asset.file, "", problem))
     };
     match (&viewpoint.camera, &asset.camera) {
         (CameraChoice::Given(camera), _) => Ok(*camera),
@@ -42,7 +44,7 @@ fn chosen_camera(
         (CameraChoice::OfFile, Some(CameraSource::Given(camera))) => Ok(*camera),
         (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => of_file(name),
         (CameraChoice::OfFile, None) => {
-            let first = cameras(asset).next();
+            let first = cameras.first();
             Ok(first.map(|placed| placed.camera).unwrap_or_else(|| {
                 choices.lines.push(
                     "camera: none in the file; a three-quarter view, fitted to the model".into(),
@@ -57,20 +59,26 @@ fn chosen_camera(
     }
 }
 
-/// A camera in its place, the name it goes by, and that of its node.
-struct PlacedCamera {
-    name: String,
-    node: String,
-    camera: Camera,
+/// A camera of a model in its place.
+#[derive(Clone, Debug)]
+pub struct PlacedCamera {
+    /// Its own name or, if it has none, its node's; may be empty.
+    pub name: String,
+    /// Its node's name; may be empty.
+    pub node: String,
+    /// The camera itself.
+    pub camera: Camera,
 }
 
 /// Every camera that a node of a model places.
-fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
-    asset.models.iter().flat_map(|placed| {
-        let nodes = placed.model.placed_nodes();
-        nodes.into_iter().filter_map(move |(node, to_model)| {
-            let camera = placed.model.cameras.get(node.camera?)?;
-            let to_world = placed.to_world * to_model;
+pub(in crate::load) fn cameras(
+    poses: &[(&PlacedModel, Pose)],
+) -> impl Iterator<Item = PlacedCamera> {
+    poses.iter().flat_map(|(placed, pose)| {
+        pose.nodes.iter().filter_map(|posed| {
+            let node = posed.node;
+            let camera = pose.cameras.get(node.camera?)?;
+            let to_world = placed.to_world * posed.to_model;
             let position = to_world.translation;
             // Directions only: a camera does not grow with its node (glTF 2.0, section 3.10).
             let forward = to_world
@@ -101,26 +109,16 @@ fn cameras(asset: &Asset) -> impl Iterator<Item = PlacedCamera> {
     })
 }
 
-fn camera_of_model(asset: &Asset, wanted: &str) -> Option<Camera> {
-    let by_name = cameras(asset).find(|placed| placed.name == wanted || placed.node == wanted);
-    let by_index = || cameras(asset).nth(wanted.parse().ok()?);
-    by_name.or_else(by_index).map(|placed| placed.camera)
-}
-
-fn no_such_camera(asset: &Asset, wanted: &str) -> String {
-    const SHOWN: usize = 8;
-    let called = |(index, PlacedCamera { name, .. }): (usize, PlacedCamera)| match name.as_str() {
-        "" => index.to_string(),
-        name => format!("{index} \"{name}\""),
+/// The camera that goes by a name, its own or else its node's, or that has this index.
+fn camera_of_model(cameras: &[PlacedCamera], wanted: &str) -> Result<Camera, String> {
+    let names: Vec<&str> = cameras.iter().map(|placed| placed.name.as_str()).collect();
+    let by_node = || cameras.iter().position(|placed| placed.node == wanted);
+    let index = match choice::find("camera", wanted, &names) {
+        Ok(index) => index,
+        Err(problem) => by_node().ok_or(problem)?,
     };
-    let known: Vec<String> = (0..).zip(cameras(asset)).map(called).collect();
-    let there = match known.as_slice() {
-        [] => "the file has none".into(),
-        [only] => format!("there is {only}"),
-        [first @ .., last] if first.len() < SHOWN => {
-            format!("there are {} and {last}", first.join(", "))
-        }
-        _ => format!("there are {}, ...", known[..SHOWN].join(", ")),
-    };
-    format!("there is no camera \"{wanted}\"; {there}")
+    cameras
+        .get(index)
+        .map(|placed| placed.camera)
+        .ok_or_else(|| format!("there is no camera {index}"))
 }

@@ -1,9 +1,10 @@
 //! What cameras, textures, materials and lights must be.
 
 use super::fields::{above_zero, check_color, direction, finite, in_range, index};
+use super::finish::check_finish;
 use crate::camera::{Camera, Fov, Projection};
 use crate::light::{Light, LightKind};
-use crate::material::{Material, Model};
+use crate::material::{Material, Model, Transmission};
 use crate::scene::SceneError;
 use crate::texture::{Pixels, Texture};
 use std::f32::consts::FRAC_PI_2;
@@ -112,8 +113,20 @@ pub(super) fn check_material(
             share("metallic", m.metallic)?;
             share("roughness", m.roughness)?;
             share("occlusion strength", m.occlusion.factor)?;
+            if let Some(finish) = &m.finish {
+                check_finish(finish, what)?;
+            }
+        }
+        Model::SpecularGlossiness(m) => {
+            check_color(what, "diffuse", m.diffuse.factor)?;
+            check_color(what, "specular", m.specular.factor)?;
+            share("glossiness", m.glossiness)?;
+            share("occlusion strength", m.occlusion.factor)?;
         }
         Model::Unlit { color } => check_color(what, "color", color.factor)?,
+    }
+    if let Some(transmission) = &material.transmission {
+        check_transmission(transmission, what)?;
     }
     if let Some(map) = &material.normal_map {
         finite(what, "normal scale", [map.scale; 3])?;
@@ -121,6 +134,38 @@ pub(super) fn check_material(
     material
         .textures()
         .try_for_each(|used| index(what, "texture", used.texture, textures))
+}
+
+fn check_transmission(
+    transmission: &Transmission,
+    what: impl Fn() -> String + Copy,
+) -> Result<(), SceneError> {
+    let at_least_zero = |field, found: f32| {
+        let fits = found >= 0.0 && found.is_finite();
+        in_range(what, field, found, fits, "a finite number, 0 or more")
+    };
+    let share = |field, found: f32| {
+        let fits = (0.0..=1.0).contains(&found);
+        in_range(what, field, found, fits, "a share from 0 to 1")
+    };
+    share("transmission", transmission.share.factor)?;
+    at_least_zero("ior", transmission.ior)?;
+    at_least_zero("dispersion", transmission.dispersion)?;
+    let Some(volume) = &transmission.volume else {
+        return Ok(());
+    };
+    // More than all of the light would make a body that shines.
+    <[f32; 3]>::from(volume.attenuation_color)
+        .into_iter()
+        .try_for_each(|channel| share("attenuation color", channel))?;
+    let distance = volume.attenuation_distance;
+    in_range(
+        what,
+        "attenuation distance",
+        distance,
+        distance > 0.0,
+        "a distance above 0",
+    )
 }
 
 pub(super) fn check_light(

@@ -1,0 +1,182 @@
+//! Light that goes through a surface, at one point: how much, and where it then is.
+//!
+//! glTF's layers (KHR_materials_transmission, "Transmission BTDF"): what Fresnel's equations do not mirror is diffuse, or
+//! goes through and takes the surface's colour. Of that follows:
+//!
+//! - **Colour.** The base colour (or `diffuse`) tints light each time that it goes through a boundary: once at a thin
+//!   sheet, twice on the way through a body, when it enters and when it leaves ("Base color changes the color of light
+//!   at the volume boundary", KHR_materials_volume). The path tracers of Dassault and of three.js do the same.
+//! - **Thin sheets** mirror what one boundary does, not the two of a real pane: transmission changes nothing about
+//!   glTF's specular term. Light goes straight on.
+//! - **Sides.** A ray carries no list of the bodies it is in: from the front it enters, from the index 1 into that of the
+//!   material; from behind it leaves, back to 1. Glass in water has to be told as such, by an index that is their ratio.
+//! - **Roughness** blurs nothing, since a Whitted renderer has one ray for each direction: the mirror before a rough
+//!   surface fades as anywhere (see `shade::metallic_roughness`), what goes through stays sharp, and so does the mirror
+//!   within a body, without which its total reflections would be dark.
+
+use super::mix::{Mix, NEUTRAL, Vertex};
+use super::{Primitive, Scene};
+use crate::color::Rgb;
+use crate::geometry::Hit;
+use crate::material::{Material, Model, Transmission, Volume};
+use crate::ray::Ray;
+use crate::shade::{Reflectance, refraction};
+
+/// What becomes of the light at a surface that lets some of it through.
+#[derive(Clone, Copy, Debug)]
+pub struct Through {
+    /// What the surface answers by itself: what is diffuse has given up the share that goes through, and the mirror is
+    /// in `mirrored` alone.
+    pub rest: Reflectance,
+    /// The share that is mirrored.
+    pub mirrored: Rgb,
+    /// The share that goes through, tinted.
+    pub passed: Rgb,
+    /// Where that goes.
+    pub way: Way,
+}
+
+/// Where light goes that went through a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Way {
+    /// On as it came: the surface is a thin sheet.
+    Straight,
+    /// Into a body.
+    In {
+        /// The material of the body, which has a volume.
+        material: u32,
+        /// Its index of refraction for each colour.
+        indices: Rgb,
+    },
+    /// Out of a body.
+    Out {
+        /// One over the body's index of refraction for each colour.
+        indices: Rgb,
+    },
+}
+
+/// What a surface does to a shadow ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Filter<'a> {
+    /// The share of the light that goes on.
+    pub share: Rgb,
+    /// The body that the ray goes into or comes out of.
+    pub volume: Option<&'a Volume>,
+    /// Whether it goes in.
+    pub enters: bool,
+}
+
+impl Scene {
+    /// What goes through a surface of a material (and its index) seen at an angle of cosine `cos_view`; `None` where
+    /// nothing does. `reflectance` is that of the surface if nothing went through.
+    pub(super) fn through(
+        &self,
+        (index, material): (u32, &Material),
+        vertex: &Vertex,
+        reflectance: &Reflectance,
+        front: bool,
+        cos_view: f32,
+    ) -> Option<Through> {
+        let transmission = material.transmits()?;
+        let share = self.share(transmission, vertex);
+        let color = let_through(reflectance.diffuse, share);
+        if color == Rgb::BLACK {
+            return None;
+        }
+        let indices = refraction::indices(transmission.ior, transmission.dispersion);
+        let (way, relative) = match (&transmission.volume, front) {
+            (None, _) => (Way::Straight, Rgb::grey(transmission.ior)),
+            (Some(_), true) => {
+                let material = index;
+                (Way::In { material, indices }, indices)
+            }
+            (Some(_), false) => {
+                let indices = indices.map(f32::recip);
+                (Way::Out { indices }, indices)
+            }
+        };
+        let fresnel = relative.map(|m| refraction::fresnel(cos_view, m));
+        let mirrored = match (&material.model, way) {
+            (Model::MetallicRoughness(_), Way::Out { .. }) => fresnel,
+            // Schlick's formula is in it: exact where it stands for Fresnel's alone, tinted or faded as it is.
+            (Model::MetallicRoughness(_), _) => {
+                let approximate = relative.map(|m| refraction::schlick(cos_view, m));
+                let exact = by_channel(fresnel, approximate, ratio);
+                (reflectance.reflectivity * exact).map(|share| share.min(1.0))
+            }
+            _ => by_channel(reflectance.reflectivity, fresnel, |a, b| a + (1.0 - a) * b),
+        };
+        let occlusion = material.occlusion();
+        let access = occlusion.map_or(1.0, |occlusion| self.ambient_access(occlusion, vertex));
+        let ambient = reflectance.diffuse * (share * access);
+        Some(Through {
+            rest: Reflectance {
+                diffuse: reflectance.diffuse * (1.0 - share),
+                // Rounding must not make it less than nothing.
+                ambient: by_channel(reflectance.ambient, ambient, |a, b| (a - b).max(0.0)),
+                reflectivity: Rgb::BLACK,
+                ..*reflectance
+            },
+            mirrored,
+            passed: color * by_channel(fresnel, mirrored, |a, b| 1.0 - a.max(b)),
+            way,
+        })
+    }
+
+    /// The share of light that goes through instead of being diffuse.
+    fn share(&self, transmission: &Transmission, vertex: &Vertex) -> f32 {
+        let texel = transmission.share.texture.as_ref();
+        let texel = texel.map_or(1.0, |used| self.look_up(used, vertex)[0]);
+        (transmission.share.factor * texel).clamp(0.0, 1.0)
+    }
+
+    /// What a surface leaves of a shadow ray's light. The ray does not bend; at a body it loses at either boundary what a
+    /// ray of its slope would lose on the way in. Both sides of a surface keep light away.
+    pub fn filter(&self, ray: &Ray, hit: &Hit) -> Filter<'_> {
+        let material = self.material(self.material_of(hit.primitive));
+        let coverage = self.shadow_coverage(hit);
+        let Some(transmission) = material.transmits() else {
+            let (share, volume) = (Rgb::grey(1.0 - coverage), None);
+            return Filter {
+                share,
+                volume,
+                enters: false,
+            };
+        };
+        let surface = self.surface(ray, hit);
+        let cos_view = surface.normal.dot(-ray.direction).clamp(0.0, 1.0);
+        let share = self.share(transmission, &self.vertex(hit));
+        let color = let_through(surface.reflectance.diffuse, share);
+        let fresnel = refraction::fresnel(cos_view, transmission.ior);
+        Filter {
+            share: Rgb::grey(1.0 - coverage) + color * ((1.0 - fresnel) * coverage),
+            volume: transmission.volume.as_ref(),
+            enters: surface.place.front,
+        }
+    }
+
+    /// What textures are looked up with at a hit.
+    pub(super) fn vertex(&self, hit: &Hit) -> Vertex {
+        let Primitive::Triangle { instance, triangle } = self.primitive(hit.primitive) else {
+            return NEUTRAL;
+        };
+        let mesh = self.mesh(self.instances[instance].mesh);
+        Mix::new(mesh, triangle, hit.barycentric).vertex()
+    }
+}
+
+/// What goes through of the light behind Fresnel's mirror, where `diffuse` is what would come back diffuse otherwise
+/// (nothing from metals); never more than there is.
+fn let_through(diffuse: Rgb, share: f32) -> Rgb {
+    diffuse.map(|channel| (channel * share).min(1.0))
+}
+
+/// Each channel of two colours by themselves through `f`.
+fn by_channel(a: Rgb, b: Rgb, f: impl Fn(f32, f32) -> f32) -> Rgb {
+    Rgb::new(f(a.r, b.r), f(a.g, b.g), f(a.b, b.b))
+}
+
+/// `a / b`, 1 where there is no `b`.
+fn ratio(a: f32, b: f32) -> f32 {
+    if b > 0.0 { a / b } else { 1.0 }
+}

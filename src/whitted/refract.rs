@@ -1,0 +1,132 @@
+//! What becomes of light at surfaces that it goes through: into a body, out of one, or straight through a sheet.
+
+use super::batch::{Arrivals, NO_BODY, Path};
+use super::{MAX_LAYERS, Tracer};
+use crate::color::Rgb;
+use crate::ray::Ray;
+use crate::scene::{Place, Through, Way};
+use crate::shade::{mirror, refraction};
+use glam::Vec3;
+
+impl Tracer<'_> {
+    /// Takes from the paths that travel in bodies what they lose on their way there.
+    ///
+    /// A path that meets nothing loses nothing: whatever it was in has no other side.
+    #[inline(never)]
+    pub(super) fn attenuate(&mut self) {
+        let paths = self.paths.paths.iter_mut().zip(&self.paths.rays);
+        for ((path, ray), hit) in paths.zip(&self.hits) {
+            if let (true, Some(hit)) = (path.body != NO_BODY, hit)
+                && let Some(volume) = self.scene.material(path.body).volume()
+            {
+                // Up to `t_min` a ray has been followed before, to a transparent layer.
+                path.energy = path.energy * volume.transmittance(hit.t - ray.t_min);
+            }
+        }
+    }
+
+    /// Sends on what a surface mirrors and what it lets through, as long as it still matters.
+    pub(super) fn refract(&mut self, arrivals: &Arrivals, index: usize, through: &Through) {
+        let arrival = &arrivals.list[index];
+        let passed = arrival.weight * through.passed;
+        let mirrored = arrival.weight * through.mirrored;
+        // What is reflected totally is still in the body, and does not split: it is light on its way out of it.
+        let out = matches!(through.way, Way::Out { .. });
+        if out && passed == Rgb::BLACK {
+            let path = self.paths.paths[arrival.path as usize];
+            let (ray, energy) = (self.mirror_ray(arrivals, index), mirrored);
+            self.go_on(ray, Path { energy, ..path });
+            return;
+        }
+        self.mirror(arrivals, index, mirrored);
+        match through.way {
+            Way::Straight => self.go_straight(arrival.path as usize, passed),
+            Way::In { material, indices } => self.bend(arrivals, index, passed, indices, material),
+            Way::Out { indices } => self.bend(arrivals, index, passed, indices, NO_BODY),
+        }
+    }
+
+    fn go_straight(&mut self, index: usize, energy: Rgb) {
+        let (path, ray) = (self.paths.paths[index], self.paths.rays[index]);
+        if let Some(hit) = self.hits[index] {
+            self.go_on(ray.beyond(hit.t, hit.primitive), Path { energy, ..path });
+        }
+    }
+
+    /// Sends light into what lies behind a boundary: one ray, or one for each colour where they part.
+    fn bend(&mut self, arrivals: &Arrivals, index: usize, energy: Rgb, indices: Rgb, body: u32) {
+        let path = arrivals.list[index].path as usize;
+        let place = arrivals.place(index);
+        let d = self.paths.rays[path].direction;
+        let path = Path {
+            direct: false,
+            body,
+            ..self.paths.paths[path]
+        };
+        let Rgb { r, g, b } = energy;
+        let colors = [
+            (
+                Rgb {
+                    g: 0.0,
+                    b: 0.0,
+                    ..energy
+                },
+                indices.r,
+            ),
+            (
+                Rgb {
+                    r: 0.0,
+                    b: 0.0,
+                    ..energy
+                },
+                indices.g,
+            ),
+            (
+                Rgb {
+                    r: 0.0,
+                    g: 0.0,
+                    ..energy
+                },
+                indices.b,
+            ),
+        ];
+        let alike = indices.r == indices.b;
+        let parts = if alike {
+            &[(Rgb { r, g, b }, indices.g)][..]
+        } else {
+            &colors[..]
+        };
+        for &(energy, m) in parts {
+            if mirror::matters(energy) {
+                let ray = bent_ray(&place, d, m);
+                self.go_on(ray, Path { energy, ..path });
+            }
+        }
+    }
+
+    /// Sends on a ray, as long as it matters and has not crossed too much.
+    fn go_on(&mut self, ray: Ray, path: Path) {
+        if !mirror::matters(path.energy) {
+            return;
+        }
+        if u32::from(path.layers) == MAX_LAYERS {
+            self.statistics.lost_in_layers += 1;
+            return;
+        }
+        let layers = path.layers + 1;
+        self.further.push(ray, Path { layers, ..path });
+        self.statistics.refracted_rays += 1;
+    }
+}
+
+/// The ray behind a boundary.
+fn bent_ray(place: &Place, d: Vec3, m: f32) -> Ray {
+    let point = &place.point;
+    let behind = |t: &Vec3| t.dot(point.normal) < 0.0;
+    // A bent normal can keep the ray before the surface: then the surface's own normal says how it goes on.
+    let t = refraction::direction(d, place.normal, m)
+        .filter(behind)
+        .or_else(|| refraction::direction(d, point.normal, m).filter(behind))
+        .unwrap_or(d);
+    Ray::leaving(point.position, point.normal, point.error, t, f32::INFINITY)
+}
