@@ -1,6 +1,7 @@
 //! From a file to an asset: `load/knot.obj` and `load/cube.glb`, in bytes, and what the files below make themselves.
 
-mod terrain;
+mod terrain_glb;
+mod terrain_obj;
 mod textures;
 
 use criterion::{Criterion, Throughput};
@@ -23,6 +24,7 @@ pub(crate) fn files(criterion: &mut Criterion) {
     }
     group.sample_size(10);
     let folder = TempDir::new().expect("a folder");
-    terrain::case(&mut group, folder.path());
+    terrain_obj::case(&mut group, folder.path());
+    terrain_glb::case(&mut group, folder.path());
     textures::case(&mut group, folder.path());
 }

@@ -2,7 +2,9 @@
 
 use crate::camera::Camera;
 use crate::geometry::{Bounds, Triangle};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
+use rayon::iter::ParallelIterator;
+use rayon::slice::ParallelSlice;
 
 /// The vertical field of view of a framed picture, in radians (35 degrees): as far from a fish eye as from a telescope.
 pub const FOV_Y: f64 = 0.610_865_238_198_015_3;
@@ -44,11 +46,15 @@ pub struct Face {
 /// A camera that sees all of `faces`, from three quarters and slightly above, or from where their broad side is seen
 /// if that view is edge-on. Their projection fills 80 % of the width or the height of a picture of this `aspect`
 /// (width / height), and is in its middle; `fov_y` is in radians. Without faces it looks at the origin.
-pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64, fov_y: f64) -> Camera {
-    let azimuth_and_elevation = broadest(faces.clone());
+pub fn frame(faces: impl Iterator<Item = Face>, aspect: f64, fov_y: f64) -> Camera {
+    let faces: Vec<Face> = faces.collect();
+    let azimuth_and_elevation = broadest(&faces);
     let towards_viewer = unit(azimuth_and_elevation);
-    let points = faces.flat_map(|face| face.triangle.0);
-    let bounds = Bounds::around(points.clone());
+    let bounds = pieces(&faces, |piece| {
+        Bounds::around(piece.iter().flat_map(|face| face.triangle.0))
+    })
+    .into_iter()
+    .fold(Bounds::EMPTY, Bounds::union);
     let (center, radius) = if bounds.is_empty() {
         (DVec3::ZERO, 1.0)
     } else {
@@ -61,11 +67,17 @@ pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64, fov_y: f64)
         )
     };
     let looking = Camera::looking_at(towards_viewer, DVec3::ZERO, DVec3::Y, 1.0);
-    let position = fitted_position(points, looking.basis(), (center, radius), (aspect, fov_y));
+    let position = fitted_position(&faces, looking.basis(), (center, radius), (aspect, fov_y));
     // The target is the point of the axis nearest to the middle of the model.
     let axis = -towards_viewer;
     let target = position + axis * (center - position).dot(axis).max(radius * 0.01);
     Camera::looking_at(position, target, DVec3::Y, fov_y)
+}
+
+/// What `of` says of each piece of the faces, in their order. The pieces are the same on every machine.
+fn pieces<T: Send>(faces: &[Face], of: impl Fn(&[Face]) -> T + Send + Sync) -> Vec<T> {
+    const PIECE: usize = 1 << 14;
+    faces.par_chunks(PIECE).map(of).collect()
 }
 
 /// The nearest position from which all points lie inside the middle `FILL` of the picture.
@@ -74,24 +86,29 @@ pub fn frame(faces: impl Iterator<Item = Face> + Clone, aspect: f64, fov_y: f64)
 /// point is `p - k r >= max(x - k z)` and `p + k r <= min(x + k z)`: the greatest `r` is half the difference over `k`,
 /// and `p` is the mean. Likewise for `y`; the smaller `r` holds for both.
 fn fitted_position(
-    points: impl Iterator<Item = Vec3>,
+    faces: &[Face],
     [u, v, w]: [DVec3; 3],
     (center, radius): (DVec3, f64),
     (aspect, fov_y): (f64, f64),
 ) -> DVec3 {
     let tan_y = libm::tan(fov_y / 2.0);
     let (k_x, k_y) = (FILL * tan_y * aspect, FILL * tan_y);
-    let mut fit_x = Fit::new(k_x);
-    let mut fit_y = Fit::new(k_y);
-    let mut nearest = f64::INFINITY;
-    for point in points {
-        // Relative to the middle and in units of the radius, so that neither place nor size costs digits.
-        let d = (point.as_dvec3() - center) / radius;
-        let (x, y, z) = (d.dot(u), d.dot(v), d.dot(w));
-        fit_x.include(x, z);
-        fit_y.include(y, z);
-        nearest = nearest.min(z);
-    }
+    let start = (Fit::new(k_x), Fit::new(k_y), f64::INFINITY);
+    let of_piece = |piece: &[Face]| {
+        let (mut fit_x, mut fit_y, mut nearest) = start;
+        for point in piece.iter().flat_map(|face| face.triangle.0) {
+            // Relative to the middle and in units of the radius, so that neither place nor size costs digits.
+            let d = (point.as_dvec3() - center) / radius;
+            let (x, y, z) = (d.dot(u), d.dot(v), d.dot(w));
+            fit_x.include(x, z);
+            fit_y.include(y, z);
+            nearest = nearest.min(z);
+        }
+        (fit_x, fit_y, nearest)
+    };
+    let (fit_x, fit_y, nearest) = pieces(faces, of_piece)
+        .into_iter()
+        .fold(start, |a, b| (a.0.and(b.0), a.1.and(b.1), a.2.min(b.2)));
     if nearest == f64::INFINITY {
         return center - w * (radius * 4.0);
     }
@@ -101,6 +118,7 @@ fn fitted_position(
 }
 
 /// One axis of the picture: what the points ask of the camera.
+#[derive(Clone, Copy)]
 struct Fit {
     k: f64,
     low: f64,
@@ -121,6 +139,15 @@ impl Fit {
         self.high = self.high.min(x + self.k * z);
     }
 
+    /// What the points of both ask.
+    fn and(self, other: Fit) -> Fit {
+        Fit {
+            k: self.k,
+            low: self.low.max(other.low),
+            high: self.high.min(other.high),
+        }
+    }
+
     fn depth(&self) -> f64 {
         (self.high - self.low) / (2.0 * self.k)
     }
@@ -131,20 +158,29 @@ impl Fit {
 }
 
 /// The first direction that shows at least `BROAD_ENOUGH` of the area that the best one shows.
-fn broadest(faces: impl Iterator<Item = Face>) -> Direction {
+fn broadest(faces: &[Face]) -> Direction {
     let directions = DIRECTIONS.map(unit);
-    let mut seen = [0.0; DIRECTIONS.len()];
-    for face in faces {
-        let [a, b, c] = face.triangle.0.map(|p| p.as_dvec3());
-        let area_normal = (b - a).cross(c - a);
-        for (seen, direction) in seen.iter_mut().zip(&directions) {
-            let facing = area_normal.dot(*direction);
-            *seen += if face.double_sided {
-                facing.abs()
-            } else {
-                facing.max(0.0)
-            };
+    let of_piece = |piece: &[Face]| {
+        let mut seen = [0.0; DIRECTIONS.len()];
+        for face in piece {
+            let [a, b, c] = face.triangle.0.map(|p| p.as_dvec3());
+            let area_normal = (b - a).cross(c - a);
+            for (seen, direction) in seen.iter_mut().zip(&directions) {
+                let facing = area_normal.dot(*direction);
+                *seen += if face.double_sided {
+                    facing.abs()
+                } else {
+                    facing.max(0.0)
+                };
+            }
         }
+        seen
+    };
+    let mut seen = [0.0; DIRECTIONS.len()];
+    for of_piece in pieces(faces, of_piece) {
+        seen.iter_mut()
+            .zip(of_piece)
+            .for_each(|(seen, more)| *seen += more);
     }
     let most = seen.iter().copied().fold(0.0, f64::max);
     let broad = DIRECTIONS
@@ -168,6 +204,7 @@ fn unit((azimuth, elevation): Direction) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
 
     fn square(corners: [Vec3; 4]) -> Vec<Face> {
         let [a, b, c, d] = corners;

@@ -100,12 +100,10 @@ impl Mesh {
 }
 
 /// Does `change` to each, many at a time.
-fn each<T: Send>(all: &mut [T], change: impl Fn(&mut T) + Sync) {
+fn each<T: Send>(all: &mut [T], change: impl Fn(&mut T) + Send + Sync) {
     /// Fewer are not worth a thread.
     const PIECE: usize = 1 << 14;
-    all.par_iter_mut()
-        .with_min_len(PIECE)
-        .for_each(|one| change(one));
+    all.par_iter_mut().with_min_len(PIECE).for_each(change);
 }
 
 /// What carries normals where `matrix` carries points: the inverse transpose, but for length. From cofactors, so that

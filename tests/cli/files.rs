@@ -114,8 +114,8 @@ fn a_wrong_gltf_is_one_line_that_names_the_place() {
             "node 0: is below itself",
         ),
         (
-            |f| f["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]),
-            "needs KHR_draco_mesh_compression, which is not supported; re-export without compression, or go on without with --allow KHR_draco_mesh_compression",
+            |f| f["extensionsRequired"] = json!(["KHR_texture_procedurals"]),
+            "needs KHR_texture_procedurals, which is not supported; re-export without it, or go on without with --allow KHR_texture_procedurals",
         ),
         (
             |f| f["nodes"][0] = json!({}),

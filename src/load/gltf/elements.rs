@@ -105,7 +105,7 @@ impl<'a> Elements<'a> {
     pub(super) fn first<const N: usize, T: Send>(
         &self,
         count: usize,
-        make: impl Fn([f32; N]) -> T + Sync,
+        make: impl Fn([f32; N]) -> T + Send + Sync,
     ) -> Vec<T> {
         let mut made: Vec<T> = match &self.base {
             Some(base) if self.component == ComponentType::F32 => each(count, |i| {
@@ -175,11 +175,11 @@ impl<'a> Elements<'a> {
     }
 }
 
-fn each<T: Send>(count: usize, make: impl Fn(usize) -> T + Sync) -> Vec<T> {
+fn each<T: Send>(count: usize, make: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
     (0..count)
         .into_par_iter()
         .with_min_len(PIECE)
-        .map(|i| make(i))
+        .map(make)
         .collect()
 }
 

@@ -184,7 +184,15 @@ mod tests {
         let turned = [0u16, 2, 1, 2, 0, 3, 3, 0, 4, 4, 0, 1];
         let words = turned.iter().flat_map(|i| i.to_le_bytes()).collect();
         let longs = sides.iter().flat_map(|i| i.to_le_bytes()).collect();
-        let cases: [(&str, &str, usize, usize, &[u8], Vec<u8>); 8] = [
+        type Case = (
+            &'static str,
+            &'static str,
+            usize,
+            usize,
+            &'static [u8],
+            Vec<u8>,
+        );
+        let cases: [Case; 8] = [
             ("ATTRIBUTES", "NONE", 5, 12, VERTICES, tent.clone()),
             (
                 "ATTRIBUTES",

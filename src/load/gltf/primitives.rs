@@ -410,7 +410,7 @@ impl Kept {
     fn gather<const N: usize, T: Send>(
         &self,
         elements: &Elements,
-        make: impl Fn([f32; N]) -> T + Sync,
+        make: impl Fn([f32; N]) -> T + Send + Sync,
     ) -> Vec<T> {
         match self {
             Kept::All(count) => elements.first(*count, make),
