@@ -81,7 +81,10 @@ fn an_image_that_does_not_fit_costs_its_texture() {
     let model = shown(10 << 20);
     assert_eq!(model.textures.len(), 0);
     let said = warnings(&model);
-    assert!(said[0].starts_with("image 0: takes "), "{said:?}");
+    assert!(
+        said[0].starts_with("image 0: 2000 x 2000 pixels: takes "),
+        "{said:?}"
+    );
 }
 
 #[test]
