@@ -7,7 +7,7 @@ use super::animation_pointer;
 use super::buffers::Buffers;
 use super::document::{Document, named, one_line};
 use super::morph_targets::targets_of_node;
-use super::{Warnings, meshes, nodes};
+use super::{Warnings, meshes, transforms};
 use crate::load::pose::{Curve, Interpolation, Motion, Target, Track};
 use crate::load::{AnimationFacts, Moved};
 use gltf::json::accessor::Type;
@@ -99,7 +99,7 @@ pub(super) fn read(
                         track.target
                         && let Some(json) = document.root.nodes.get(node)
                     {
-                        motion.rest.insert(node, nodes::factors_of(json));
+                        motion.rest.insert(node, transforms::factors_of(json));
                     }
                     motion.tracks.push(track);
                 }

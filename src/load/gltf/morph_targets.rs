@@ -5,7 +5,8 @@
 use super::Warnings;
 use super::accessors;
 use super::document::Document;
-use super::primitives::{Kept, Reader};
+use super::kept::Kept;
+use super::primitives::Reader;
 use crate::Error;
 use crate::load::pose::{MorphTarget, Offset};
 use crate::mesh::Mesh;

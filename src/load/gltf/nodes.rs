@@ -7,12 +7,12 @@ use super::Warnings;
 use super::document::{Document, named};
 use super::implicit_shapes::Shapes;
 use super::node_visibility::{self, Visibility};
+use super::transforms::to_parent;
 use super::{extensions, lights_punctual, mesh_gpu_instancing, morph_targets};
 use crate::Error;
-use crate::load::pose::{Factors, is_somewhere};
+use crate::load::pose::is_somewhere;
 use crate::load::{ModelMesh, Node, choice};
-use glam::{DAffine3, DMat3, DVec3};
-use gltf::json::Node as NodeJson;
+use glam::DAffine3;
 
 /// The nodes of a file and those at the top of what is drawn.
 #[derive(Debug, Default)]
@@ -274,39 +274,6 @@ fn one(
         weights,
         is_hidden,
     })
-}
-
-/// A node's transform, `matrix` or `translation * rotation * scale` (glTF 2.0, section 3.5.3).
-fn to_parent(json: &NodeJson, warnings: &mut Warnings) -> DAffine3 {
-    if let Some(matrix) = json.matrix {
-        let [x, y, z, w] = [0, 4, 8, 12].map(|at| {
-            let [a, b, c] = [0, 1, 2].map(|row| f64::from(matrix[at + row]));
-            DVec3::new(a, b, c)
-        });
-        if [3, 7, 11, 15].map(|at| matrix[at]) != [0.0, 0.0, 0.0, 1.0] {
-            warnings.add("the last row of a node's matrix is not 0 0 0 1 and is ignored");
-        }
-        return DAffine3::from_mat3_translation(DMat3::from_cols(x, y, z), w);
-    }
-    factors(json, warnings).matrix()
-}
-
-/// A node's transform in the factors that animations change; a matrix has them only as far as it does not shear.
-pub(super) fn factors_of(json: &NodeJson) -> Factors {
-    let mut told_already = Warnings::default();
-    if json.matrix.is_some() {
-        Factors::of(&to_parent(json, &mut told_already))
-    } else {
-        factors(json, &mut told_already)
-    }
-}
-
-fn factors(json: &NodeJson, warnings: &mut Warnings) -> Factors {
-    let rotation = json.rotation.map(|rotation| rotation.0);
-    if rotation == Some([0.0; 4]) {
-        warnings.add("a node's rotation without length is ignored");
-    }
-    Factors::new(json.translation, rotation, json.scale)
 }
 
 impl Tree {

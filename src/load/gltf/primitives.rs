@@ -6,7 +6,9 @@ use super::buffers::Buffers;
 use super::document::Document;
 use super::draco::Unpacked;
 use super::elements::Elements;
-use super::{morph_targets, primitive_modes, skins};
+use super::faces::{Faces, leave_out};
+use super::kept::Kept;
+use super::{morph_targets, skins};
 use crate::Error;
 use crate::load::pose::Deformation;
 use crate::load::tangents::{self, TooCrowded};
@@ -28,8 +30,6 @@ pub(super) struct Reader<'a> {
     pub(super) place: String,
 }
 
-/// The index, and a third of a triangle; or of a strip, a whole one.
-const BYTES_A_CORNER: u64 = 16;
 /// Position, normal, tangent, one set of texture coordinates and another attribute.
 const BYTES_A_VERTEX: u64 = 64;
 
@@ -225,85 +225,6 @@ impl Reader<'_> {
         Ok(Some(elements))
     }
 
-    /// Which vertices are drawn as what, all of them in range.
-    fn faces(
-        &self,
-        mode: Mode,
-        in_stream: Option<Vec<[u32; 3]>>,
-        positions: &Elements,
-        budget: &mut u64,
-        warnings: &mut Warnings,
-    ) -> Result<Faces, Error> {
-        let count = positions.count;
-        if let Some(triangles) = in_stream {
-            // A list, whatever the mode.
-            self.spend(budget, triangles.len() * 3, BYTES_A_CORNER)?;
-            self.check_range(triangles.as_flattened(), count)?;
-            return Ok(Faces::Triangles(triangles));
-        }
-        let indices = self.indices()?;
-        let corners = indices.as_ref().map_or(count, |indices| indices.count);
-        self.spend(budget, corners, BYTES_A_CORNER)?;
-        warnings.add_times(
-            "a corner that belongs to no whole triangle is ignored",
-            primitive_modes::left_over(mode, corners),
-        );
-        if let (Mode::Triangles, Some(indices)) = (mode, &indices) {
-            let triangles = indices.index_triples();
-            self.check_range(triangles.as_flattened(), count)?;
-            return Ok(Faces::Triangles(triangles));
-        }
-        let corners: Vec<u32> = match &indices {
-            Some(indices) => indices.indices(),
-            None => {
-                let end = u32::try_from(count).map_err(|_| {
-                    let problem = format!("{count} vertices are more than 32 bits can number");
-                    self.document.malformed(self.place.as_str(), problem)
-                })?;
-                (0..end).collect()
-            }
-        };
-        self.check_range(&corners, count)?;
-        Ok(match mode {
-            Mode::Points => Faces::Points(corners.len()),
-            Mode::Lines | Mode::LineLoop | Mode::LineStrip => {
-                Faces::Lines(primitive_modes::lines(mode, corners.len()))
-            }
-            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {
-                Faces::Triangles(primitive_modes::triangles(mode, &corners))
-            }
-        })
-    }
-
-    /// The primitive's indices, if it has any.
-    fn indices(&self) -> Result<Option<Elements<'_>>, Error> {
-        let Some(accessor) = self.primitive.indices else {
-            return Ok(None);
-        };
-        let place = || format!("{}, indices", self.place);
-        let wrong = |problem: String| self.document.malformed(place(), problem);
-        let kinds = [Type::Scalar];
-        let indices = accessors::read(self.document, self.buffers, accessor.value(), &kinds)
-            .map_err(wrong)?;
-        if !indices.counts() {
-            return Err(wrong(
-                "are signed or fractions, expected unsigned integers".into(),
-            ));
-        }
-        Ok(Some(indices))
-    }
-
-    fn check_range(&self, corners: &[u32], count: usize) -> Result<(), Error> {
-        let Some(vertex) = corners.iter().find(|&&vertex| vertex as usize >= count) else {
-            return Ok(());
-        };
-        let problem = match count.checked_sub(1) {
-            Some(last) => format!("index {vertex} is past the last vertex ({last})"),
-            None => format!("index {vertex} names a vertex, there are none"),
-        };
-        Err(self.document.malformed(self.place.as_str(), problem))
-    }
-
     /// Takes elements from the file's allowance, and their memory.
     pub(super) fn spend(
         &self,
@@ -323,128 +244,5 @@ impl Reader<'_> {
                 "the geometry up to here is many times what the buffers hold",
             )),
         }
-    }
-}
-
-/// What the corners of a primitive make.
-enum Faces {
-    Triangles(Vec<[u32; 3]>),
-    Points(usize),
-    Lines(usize),
-}
-
-/// Drops triangles with a position that is no number, and says how many.
-fn leave_out(mesh: &mut Mesh) -> usize {
-    if mesh.positions.iter().all(|position| position.is_finite()) {
-        return 0;
-    }
-    let Mesh {
-        positions,
-        triangles,
-        ..
-    } = mesh;
-    let before = triangles.len();
-    let is_finite = |&vertex: &u32| {
-        positions
-            .get(vertex as usize)
-            .is_some_and(|p| p.is_finite())
-    };
-    triangles.retain(|corners| corners.iter().all(is_finite));
-    for position in positions
-        .iter_mut()
-        .filter(|position| !position.is_finite())
-    {
-        *position = Vec3::ZERO;
-    }
-    before - triangles.len()
-}
-
-/// Which of an accessor's vertices a mesh keeps. Files share one long accessor between many primitives; each keeps
-/// only what it draws.
-pub(super) enum Kept {
-    All(usize),
-    /// In rising order.
-    Some(Vec<u32>),
-}
-
-impl Kept {
-    /// What `triangles` need of `count` vertices; the triangles then name the kept ones.
-    fn of(triangles: &mut [[u32; 3]], count: usize) -> Kept {
-        // With so few to gain, vertices stay as they are.
-        if count <= triangles.len().saturating_mul(4) {
-            return Kept::All(count);
-        }
-        let mut used: Vec<u32> = triangles.as_flattened().to_vec();
-        used.sort_unstable();
-        used.dedup();
-        for vertex in triangles.as_flattened_mut() {
-            *vertex = used.partition_point(|&other| other < *vertex) as u32;
-        }
-        Kept::Some(used)
-    }
-
-    pub(super) fn count(&self) -> usize {
-        match self {
-            Kept::All(count) => *count,
-            Kept::Some(used) => used.len(),
-        }
-    }
-
-    /// Where vertex `old` of the accessor went, if it is kept.
-    pub(super) fn place_of(&self, old: u32) -> Option<u32> {
-        match self {
-            Kept::All(_) => Some(old),
-            Kept::Some(used) => used.binary_search(&old).ok().map(|place| place as u32),
-        }
-    }
-
-    /// The kept vertices of the accessor, in order.
-    pub(super) fn vertices(&self) -> Vec<u32> {
-        match self {
-            Kept::All(count) => (0..*count as u32).collect(),
-            Kept::Some(used) => used.clone(),
-        }
-    }
-
-    /// What `make` makes of each of the kept vertices' elements.
-    fn gather<const N: usize, T: Send>(
-        &self,
-        elements: &Elements,
-        make: impl Fn([f32; N]) -> T + Send + Sync,
-    ) -> Vec<T> {
-        match self {
-            Kept::All(count) => elements.first(*count, make),
-            Kept::Some(used) => {
-                let used = used.iter();
-                used.map(|&i| make(elements.floats(i as usize))).collect()
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use gltf::json::accessor::ComponentType;
-
-    /// What is kept of the vertices 0, 1, 2 and so on.
-    fn kept(triangles: &mut [[u32; 3]], count: usize) -> Vec<f32> {
-        let bytes: Vec<u8> = (0..count).flat_map(|i| (i as f32).to_le_bytes()).collect();
-        let elements = Elements::packed(&bytes, count, 1, ComponentType::F32, false);
-        Kept::of(triangles, count).gather(&elements, |[i]| i)
-    }
-
-    #[test]
-    fn a_small_part_of_a_long_accessor_keeps_its_own_vertices_only() {
-        let mut triangles = vec![[90, 7, 40], [40, 7, 3]];
-        assert_eq!(kept(&mut triangles, 100), [3., 7., 40., 90.]);
-        assert_eq!(triangles, [[3, 1, 2], [2, 1, 0]]);
-    }
-
-    #[test]
-    fn a_whole_accessor_is_kept_as_it_is() {
-        let mut triangles = vec![[2, 1, 0]];
-        assert_eq!(kept(&mut triangles, 4), [0., 1., 2., 3.]);
-        assert_eq!(triangles, [[2, 1, 0]]);
     }
 }
