@@ -54,10 +54,6 @@ const NOT_SHOWN: &[(&str, &str)] = &[
         "validator/base/data/root/unused_objects.gltf",
         "buffer 0 has neither a URI nor",
     ),
-    (
-        "validator/ext/KHR_mesh_quantization/data/primitive/valid.gltf",
-        "needs KHR_mesh_quantization",
-    ),
 ];
 
 /// A triangle whose texture is `IMAGE`.

@@ -161,7 +161,7 @@ impl Asset {
             file: self.file.clone(),
             problem,
         };
-        let scene = Scene::new(scene).map_err(in_file)?;
+        let scene = Scene::new_within(scene, self.budget.left()).map_err(in_file)?;
         Ok((scene, choices))
     }
 
