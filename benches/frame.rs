@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput};
 use luch::accel::{Accel, Options};
-use luch::load::{self, CameraChoice, Viewpoint, scene_file};
+use luch::load::{self, Viewpoint, scene_file};
 use luch::render::{Progress, Settings, render};
 use luch::shade::Shading;
 use std::path::Path;
@@ -13,13 +13,7 @@ pub(crate) fn whole_frames(criterion: &mut Criterion) {
     group.sample_size(20);
     for name in ["figure-4", "mixed"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/scenes/{name}.toml"));
-        let viewpoint = Viewpoint {
-            aspect: 4.0 / 3.0,
-            camera: CameraChoice::OfFile,
-            fov_y: None,
-            background: None,
-            exposure: None,
-        };
+        let viewpoint = Viewpoint::of_file(4.0 / 3.0);
         let Ok((scene, _)) = scene_file::open(&path, &load::Options::default())
             .and_then(|asset| asset.scene(0.0, &viewpoint))
         else {

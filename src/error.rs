@@ -1,6 +1,5 @@
 //! The errors of the doors: which file, where in it, what was expected and found, and the way out.
 
-use crate::load::OutOfMemory;
 use crate::scene::SceneError;
 use std::fmt;
 use std::io;
@@ -82,6 +81,37 @@ impl Error {
             doing,
             reason,
         }
+    }
+}
+
+/// Something takes more memory than is left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OutOfMemory {
+    /// What it takes, in bytes.
+    pub needs: u64,
+    /// What there is for it, in bytes.
+    pub left: u64,
+}
+
+impl OutOfMemory {
+    /// An error of `what` in a file, as in "mesh 3".
+    pub(crate) fn of(self, file: &Path, what: impl Into<String>) -> Error {
+        Error::OutOfMemory {
+            file: file.to_owned(),
+            what: what.into(),
+            problem: self,
+        }
+    }
+}
+
+impl fmt::Display for OutOfMemory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let megabytes = |bytes: u64| bytes.div_ceil(1_000_000);
+        let (needs, left) = (megabytes(self.needs), self.left / 1_000_000);
+        write!(
+            f,
+            "takes {needs} MB of memory, {left} MB are left; make it smaller, or allow more with --max-memory"
+        )
     }
 }
 

@@ -3,17 +3,14 @@
 //!
 //! ```no_run
 //! use luch::accel::{Accel, Options};
-//! use luch::load::{self, CameraChoice, Viewpoint};
+//! use luch::load::{self, Viewpoint};
 //! use luch::output::{self, Destination};
 //! use luch::render::{Progress, Settings, render};
 //! use luch::shade::Shading;
 //! use std::path::Path;
 //!
 //! let asset = load::open(Path::new("assets/models/cube.glb"), &load::Options::default())?;
-//! let camera = CameraChoice::OfFile;
-//! let viewpoint =
-//!     Viewpoint { aspect: 4.0 / 3.0, camera, fov_y: None, background: None, exposure: None };
-//! let (scene, choices) = asset.scene(0.0, &viewpoint)?;
+//! let (scene, choices) = asset.scene(0.0, &Viewpoint::of_file(4.0 / 3.0))?;
 //!
 //! let accel = Accel::build(&scene, &Options::default());
 //! let settings = Settings::new(640, 480, 4, 5, Shading::BlinnPhong)?;
@@ -32,7 +29,7 @@
 
 mod error;
 
-pub use error::Error;
+pub use error::{Error, OutOfMemory};
 
 // Numbers.
 pub mod color;

@@ -23,7 +23,7 @@ mod warnings;
 
 pub use analytic::{Analytic, AnalyticKind};
 pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
-pub use budget::{Budget, OutOfMemory};
+pub use budget::Budget;
 pub use model::{
     AnimationFacts, Ask, Facts, Model, ModelCamera, ModelMesh, Moved, Node, Note, Part,
     TextureFacts, Treatment,

@@ -4,7 +4,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Throughput};
 use glam::Vec3;
 use luch::generate;
-use luch::load::{self, CameraChoice, Viewpoint};
+use luch::load::{self, Viewpoint};
 use serde_json::json;
 use std::path::Path;
 use std::{fs, io};
@@ -15,13 +15,7 @@ const CELLS: u32 = 741;
 pub(super) fn case(group: &mut BenchmarkGroup<WallTime>, folder: &Path) {
     let path = folder.join("terrain.glb");
     let length = write_terrain(&path).expect("the landscape on the disk");
-    let viewpoint = Viewpoint {
-        aspect: 1.0,
-        camera: CameraChoice::OfFile,
-        fov_y: None,
-        background: None,
-        exposure: None,
-    };
+    let viewpoint = Viewpoint::of_file(1.0);
     group.throughput(Throughput::Bytes(length));
     group.bench_function("terrain.glb", |bench| {
         bench.iter(|| {

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use luch::camera::Camera;
 use luch::generate::{self, Decoration};
-use luch::load::{self, CameraChoice, Viewpoint};
+use luch::load::{self, Viewpoint};
 use luch::mesh::Mesh;
 use luch::scene::Scene;
 use std::path::{Path, PathBuf};
@@ -75,13 +75,7 @@ pub(crate) fn interior(decoration: Decoration) -> Result<Scene, String> {
 
 /// A file, as `luch` frames and lights it.
 fn open(file: &Path) -> Result<Scene, String> {
-    let viewpoint = Viewpoint {
-        aspect: 16.0 / 9.0,
-        camera: CameraChoice::OfFile,
-        fov_y: None,
-        background: None,
-        exposure: None,
-    };
+    let viewpoint = Viewpoint::of_file(16.0 / 9.0);
     let asset = load::open(file, &load::Options::default()).map_err(|error| error.to_string())?;
     let (scene, _) = asset
         .scene(0.0, &viewpoint)

@@ -1,7 +1,7 @@
 //! What the targets share: bytes become files in a folder, and files a picture.
 
 use luch::accel::{Accel, Options as AccelOptions};
-use luch::load::{self, CameraChoice, Options, Viewpoint};
+use luch::load::{self, Options, Viewpoint};
 use luch::render::{Progress, Settings, render};
 use luch::shade::Shading;
 use std::fs;
@@ -71,13 +71,7 @@ fn opened(path: &Path) {
         Err(error) => return one_line(&error.to_string()),
     };
     asset.warnings.iter().for_each(|w| one_line(&w.to_string()));
-    let viewpoint = Viewpoint {
-        aspect: 1.0,
-        camera: CameraChoice::OfFile,
-        fov_y: None,
-        background: None,
-        exposure: None,
-    };
+    let viewpoint = Viewpoint::of_file(1.0);
     let (scene, choices) = match asset.scene(0.0, &viewpoint) {
         Ok(made) => made,
         Err(error) => return one_line(&error.to_string()),

@@ -7,7 +7,7 @@ mod scene_file;
 use super::Failure;
 use super::arguments::InfoArguments;
 use super::print::{self, counted};
-use luch::load::{self, Asset, CameraChoice, Viewpoint};
+use luch::load::{self, Asset, Viewpoint};
 use luch::scene::Scene;
 use model::ModelInfo;
 use scene_file::SceneFileInfo;
@@ -48,13 +48,7 @@ pub(super) fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         ..arguments.reading.options()
     };
     let asset = load::open(&arguments.input, &options).map_err(Failure::usage_or_scene)?;
-    let viewpoint = Viewpoint {
-        aspect: 1.0,
-        camera: CameraChoice::OfFile,
-        fov_y: None,
-        background: None,
-        exposure: None,
-    };
+    let viewpoint = Viewpoint::of_file(1.0);
     let (scene, _) = asset
         .scene(arguments.animation.time(), &viewpoint)
         .map_err(Failure::usage_or_scene)?;

@@ -2,10 +2,11 @@
 
 use super::pose::{Pose, PosedMeshes};
 use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
-use super::{Budget, Model, OutOfMemory, Warnings};
+use super::{Budget, Model, Warnings};
 use crate::Error;
 use crate::camera::Camera;
 use crate::color::Rgb;
+use crate::error::OutOfMemory;
 use crate::geometry::{Plane, Sphere};
 use crate::light::Light;
 use crate::material::Material;

@@ -2,10 +2,9 @@
 
 use super::{Model, Options, memory};
 use crate::Error;
+use crate::error::OutOfMemory;
 use crate::mesh::Mesh;
 use crate::texture::Pixels;
-use std::fmt;
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
@@ -14,15 +13,6 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 pub struct Budget {
     limit: u64,
     spent: Arc<AtomicU64>,
-}
-
-/// Something takes more memory than is left.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct OutOfMemory {
-    /// What it takes, in bytes.
-    pub needs: u64,
-    /// What there is for it, in bytes.
-    pub left: u64,
 }
 
 impl Budget {
@@ -61,6 +51,17 @@ impl Budget {
         Ok(())
     }
 
+    /// A model that `read` makes, of which only the model is kept.
+    pub(super) fn reading(
+        &self,
+        read: impl FnOnce() -> Result<Model, Error>,
+    ) -> Result<Model, Error> {
+        let before = self.spent();
+        let model = read()?;
+        self.settle(before, bytes_of_model(&model));
+        Ok(model)
+    }
+
     /// What is not taken, in bytes.
     pub fn left(&self) -> u64 {
         self.limit.saturating_sub(self.spent())
@@ -89,28 +90,6 @@ impl Default for Budget {
     /// As much as luch takes where nobody says how much.
     fn default() -> Budget {
         Budget::of(&Options::default())
-    }
-}
-
-impl OutOfMemory {
-    /// An error of `what` in a file, as in "mesh 3".
-    pub(super) fn of(self, file: &Path, what: impl Into<String>) -> Error {
-        Error::OutOfMemory {
-            file: file.to_owned(),
-            what: what.into(),
-            problem: self,
-        }
-    }
-}
-
-impl fmt::Display for OutOfMemory {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let megabytes = |bytes: u64| bytes.div_ceil(1_000_000);
-        let (needs, left) = (megabytes(self.needs), self.left / 1_000_000);
-        write!(
-            f,
-            "takes {needs} MB of memory, {left} MB are left; make it smaller, or allow more with --max-memory"
-        )
     }
 }
 

@@ -60,7 +60,7 @@ mod textures;
 mod transforms;
 mod uri;
 
-use super::{Budget, Facts, Model, Options, Warnings, budget, files};
+use super::{Budget, Facts, Model, Options, Warnings, files};
 use crate::Error;
 use buffers::Buffers;
 use document::{Document, one_line};
@@ -89,10 +89,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
 
 /// [`open`] with memory from a budget.
 pub(super) fn open_within(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {
-    let before = budget.spent();
-    let model = read(path, options, budget)?;
-    budget.settle(before, budget::bytes_of_model(&model));
-    Ok(model)
+    budget.reading(|| read(path, options, budget))
 }
 
 fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {

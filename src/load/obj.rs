@@ -41,8 +41,7 @@ mod text;
 mod textures;
 
 use super::{
-    Budget, Facts, Model, ModelMesh, Node, Options, Part, Warnings, budget, files, tangents,
-    text_bytes,
+    Budget, Facts, Model, ModelMesh, Node, Options, Part, Warnings, files, tangents, text_bytes,
 };
 use crate::Error;
 use find::Finder;
@@ -67,10 +66,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
 
 /// [`open`] with memory from a budget.
 pub(super) fn open_within(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {
-    let before = budget.spent();
-    let model = read(path, options, budget)?;
-    budget.settle(before, budget::bytes_of_model(&model));
-    Ok(model)
+    budget.reading(|| read(path, options, budget))
 }
 
 fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {

@@ -31,6 +31,19 @@ pub struct Viewpoint {
     pub exposure: Option<f32>,
 }
 
+impl Viewpoint {
+    /// As the file says, framed and lit where it does not, for a picture of this width over height.
+    pub fn of_file(aspect: f64) -> Viewpoint {
+        Viewpoint {
+            aspect,
+            camera: CameraChoice::OfFile,
+            fov_y: None,
+            background: None,
+            exposure: None,
+        }
+    }
+}
+
 /// From where an asset is to be looked at.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CameraChoice {

@@ -2,20 +2,14 @@
 
 use luch::accel::{Accel, Options};
 use luch::film::Film;
-use luch::load::{CameraChoice, Viewpoint};
+use luch::load::Viewpoint;
 use luch::render::{Progress, Settings, render};
 use luch::scene::Scene;
 use luch::shade::Shading;
 
 /// As the file says, framed where it does not.
 pub(crate) fn viewpoint(aspect: f64) -> Viewpoint {
-    Viewpoint {
-        aspect,
-        camera: CameraChoice::OfFile,
-        fov_y: None,
-        background: None,
-        exposure: None,
-    }
+    Viewpoint::of_file(aspect)
 }
 
 /// A picture of one sample a pixel.

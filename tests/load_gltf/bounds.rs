@@ -2,7 +2,7 @@
 
 use super::file::{File, floats, warnings};
 use image::{ImageBuffer, ImageFormat, Rgba};
-use luch::load::{self, CameraChoice, Options, Viewpoint, gltf};
+use luch::load::{self, Options, Viewpoint, gltf};
 use serde_json::json;
 use std::fs;
 use std::io::Cursor;
@@ -97,13 +97,7 @@ fn a_scene_that_multiplies_what_was_read_is_refused() {
     file.json["scenes"] = json!([{"nodes": (0..1000).collect::<Vec<_>>()}]);
     let (_folder, path) = written(&file);
     let asset = load::open(&path, &within(100 << 20)).expect("the file is right");
-    let viewpoint = Viewpoint {
-        aspect: 1.0,
-        camera: CameraChoice::OfFile,
-        fov_y: None,
-        background: None,
-        exposure: None,
-    };
+    let viewpoint = Viewpoint::of_file(1.0);
     let problem = asset
         .scene(0.0, &viewpoint)
         .map(drop)

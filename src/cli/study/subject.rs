@@ -69,13 +69,10 @@ impl Subject {
         [width, height]: [u32; 2],
     ) -> Result<Subject, Failure> {
         let viewpoint = Viewpoint {
-            aspect: f64::from(width) / f64::from(height.max(1)),
             camera: camera.map_or(CameraChoice::OfFile, |camera| {
                 CameraChoice::Named(camera.into())
             }),
-            fov_y: None,
-            background: None,
-            exposure: None,
+            ..Viewpoint::of_file(f64::from(width) / f64::from(height.max(1)))
         };
         let made: Result<_, Error> = asset.scene(0.0, &viewpoint);
         let (scene, choices) = made.map_err(Failure::usage_or_scene)?;
