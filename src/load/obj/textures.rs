@@ -53,6 +53,13 @@ impl Textures {
         Some(self.used(image, map, Encoding::Srgb))
     }
 
+    /// A texture of numbers that are no colours.
+    pub(super) fn amount(&mut self, map: Option<&Map>) -> Option<TextureUse> {
+        let map = map?;
+        let image = self.image(map)?;
+        Some(self.used(image, map, Encoding::Linear))
+    }
+
     /// A texture of coverage, and where in it that is: in an alpha that says something, or else in a grey picture.
     pub(super) fn coverage(&mut self, map: Option<&Map>) -> Option<(TextureUse, AlphaChannel)> {
         let map = map?;
