@@ -48,7 +48,7 @@ use super::{
 use crate::Error;
 use find::Finder;
 use geometry::Geometry;
-use libraries::{folder_of, read_libraries};
+use libraries::{Known, folder_of, read_libraries};
 use meshes::{Mended, MeshMaker};
 use std::collections::HashMap;
 use std::path::Path;
@@ -138,6 +138,14 @@ fn add_materials(
         &mut textures.finder,
         &textures.budget,
     );
+    let make = |known: &Known, textures: &mut Textures| {
+        textures.folders = vec![known.folder.clone(), folder.clone()];
+        materials::material(&known.mtl, textures)
+    };
+    for known in geometry.materials.iter().filter_map(|name| known.get(name)) {
+        drop(make(known, &mut textures));
+    }
+    let mut textures = textures.with_wanted();
     let mut indices = Vec::with_capacity(geometry.materials.len());
     let mut lacking: Vec<String> = Vec::new();
     for name in &geometry.materials {
@@ -154,11 +162,8 @@ fn add_materials(
                 lacking.push(part.clone());
             }
         }
-        textures.folders = vec![known.folder.clone(), folder.clone()];
         indices.push(Some(model.materials.len() as u32));
-        model
-            .materials
-            .push(materials::material(&known.mtl, &mut textures));
+        model.materials.push(make(known, &mut textures));
     }
     let default = model.materials.len() as u32;
     model.materials.push(materials::default_material());
