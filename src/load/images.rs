@@ -4,7 +4,10 @@ mod common;
 mod jpeg;
 mod ktx2;
 mod rgba;
+mod several;
 mod webp;
+
+pub(super) use several::{Encoded, decode_all};
 
 use crate::load::Budget;
 use crate::texture::Image;
@@ -106,12 +109,6 @@ pub(super) fn header(name: &str, bytes: &[u8]) -> Result<Header, String> {
             "is {kind}, which is not supported; use PNG or JPEG"
         )),
     }
-}
-
-/// [`decode`] with memory from a budget.
-pub(super) fn decode_within(name: &str, bytes: &[u8], budget: &Budget) -> Result<Decoded, String> {
-    header(name, bytes)?.take(budget)?;
-    decode(name, bytes)
 }
 
 /// Decodes an image file, whose kind its first bytes tell (TGA: `name`'s ending).

@@ -19,6 +19,7 @@
 //! - Blender 4.5 was the measure: of 170 files that both read, 150 have the same triangles, area, shading normals and
 //!   colours; of the others Blender finds nothing to draw in 9, and differs by triangles without area in 4.
 
+mod asks;
 mod bump;
 mod colors;
 mod faces;
@@ -39,6 +40,7 @@ mod reader;
 mod smooth;
 mod text;
 mod textures;
+mod values;
 
 use super::{
     Budget, Facts, Model, ModelMesh, Node, Options, Part, Warnings, files, tangents, text_bytes,
@@ -46,7 +48,7 @@ use super::{
 use crate::Error;
 use find::Finder;
 use geometry::Geometry;
-use libraries::{folder_of, read_libraries};
+use libraries::{Known, folder_of, read_libraries};
 use meshes::{Mended, MeshMaker};
 use std::collections::HashMap;
 use std::path::Path;
@@ -92,7 +94,7 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
         ..Model::default()
     };
     let textures = Textures::new(Finder::new(path, options), budget);
-    let material_of = add_materials(&mut model, &geometry, textures);
+    let (material_of, lacking) = add_materials(&mut model, &geometry, textures);
     add_shapes(&mut model, &geometry, &material_of);
     if model.shapes.is_empty() {
         return Err(match geometry.first_dropped {
@@ -108,13 +110,19 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
         triangles: model.meshes.iter().map(|mesh| mesh.triangles.len()).sum(),
         points: geometry.points,
         lines: geometry.lines,
+        asks: asks::all(&geometry, &model.materials, &lacking),
         ..model.facts
     };
     Ok(model)
 }
 
-/// Reads MTLs and textures; for each material that the geometry names, its index in the model. The default comes last.
-fn add_materials(model: &mut Model, geometry: &Geometry, mut textures: Textures) -> Vec<u32> {
+/// Reads MTLs and textures; for each material that the geometry names, its index in the model, and what luch lacks of
+/// what they say. The default comes last.
+fn add_materials(
+    model: &mut Model,
+    geometry: &Geometry,
+    mut textures: Textures,
+) -> (Vec<u32>, Vec<String>) {
     let folder = folder_of(&model.file);
     let known = read_libraries(
         model,
@@ -123,7 +131,16 @@ fn add_materials(model: &mut Model, geometry: &Geometry, mut textures: Textures)
         &mut textures.finder,
         &textures.budget,
     );
+    let make = |known: &Known, textures: &mut Textures| {
+        textures.folders = vec![known.folder.clone(), folder.clone()];
+        materials::material(&known.mtl, textures)
+    };
+    for known in geometry.materials.iter().filter_map(|name| known.get(name)) {
+        drop(make(known, &mut textures));
+    }
+    let mut textures = textures.with_wanted();
     let mut indices = Vec::with_capacity(geometry.materials.len());
+    let mut lacking: Vec<String> = Vec::new();
     for name in &geometry.materials {
         let Some(known) = known.get(name) else {
             let name = text::shown(name.as_bytes());
@@ -133,11 +150,13 @@ fn add_materials(model: &mut Model, geometry: &Geometry, mut textures: Textures)
             indices.push(None);
             continue;
         };
-        textures.folders = vec![known.folder.clone(), folder.clone()];
+        for part in &known.mtl.lacks {
+            if !lacking.contains(part) {
+                lacking.push(part.clone());
+            }
+        }
         indices.push(Some(model.materials.len() as u32));
-        model
-            .materials
-            .push(materials::material(&known.mtl, &mut textures));
+        model.materials.push(make(known, &mut textures));
     }
     let default = model.materials.len() as u32;
     model.materials.push(materials::default_material());
@@ -145,10 +164,8 @@ fn add_materials(model: &mut Model, geometry: &Geometry, mut textures: Textures)
     model.facts.textures = textures.facts;
     model.files.append(&mut textures.files);
     model.warnings.append(textures.warnings);
-    indices
-        .into_iter()
-        .map(|index| index.unwrap_or(default))
-        .collect()
+    let indices = indices.into_iter().map(|index| index.unwrap_or(default));
+    (indices.collect(), lacking)
 }
 
 /// A shape and its node for each object, and in it a part for each material.

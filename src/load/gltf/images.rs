@@ -5,11 +5,11 @@ use super::buffers::Buffers;
 use super::document::{Document, one_line};
 use super::uri::{self, Uri};
 use crate::Error;
-use crate::load::{files, images};
+use crate::load::files;
+use crate::load::images::{self, Encoded};
 use crate::texture::Image;
 use rayon::prelude::*;
 use std::borrow::Cow;
-use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -26,14 +26,6 @@ enum Source {
     View(usize, u64, u64),
     /// The index of the image whose data URI it is.
     Data(usize),
-}
-
-/// An image whose header has been read.
-struct Encoded<'a> {
-    /// Its ending may tell the kind.
-    name: String,
-    bytes: Cow<'a, [u8]>,
-    header: images::Header,
 }
 
 /// Decodes images, and knows which it has decoded.
@@ -76,31 +68,7 @@ impl<'a> Decoder<'a> {
             .par_iter()
             .map(|(image, source)| (*image, encoded(self.document, self.buffers, *image, source)))
             .collect();
-        let mut ready: Vec<(usize, Encoded)> = Vec::new();
-        for (image, found) in encoded {
-            let taken = found.and_then(|encoded| {
-                encoded.header.take(&self.document.budget)?;
-                Ok(encoded)
-            });
-            match taken {
-                Ok(encoded) => ready.push((image, encoded)),
-                Err(problem) => drop(tried.insert(image, Err(problem))),
-            }
-        }
-        ready.sort_by_key(|(_, encoded)| Reverse(encoded.header.bytes_to_decode()));
-        // What takes more than a thread's part of the memory that is left is decoded alone.
-        let part = self.document.budget.left() / rayon::current_num_threads() as u64;
-        let small = ready.partition_point(|(_, e)| e.header.bytes_to_decode() > part);
-        let rest = ready.split_off(small);
-        let decode = |(image, encoded): (usize, Encoded)| {
-            (image, images::decode(&encoded.name, &encoded.bytes))
-        };
-        let mut decoded: Vec<(usize, Result<images::Decoded, String>)> =
-            ready.into_iter().map(decode).collect();
-        // One thread takes the next when it is done with one: what is greatest is never last.
-        decoded.par_extend(rest.into_iter().par_bridge().map(decode));
-        decoded.sort_by_key(|(image, _)| *image);
-        for (image, found) in decoded {
+        for (image, found) in images::decode_all(encoded, &self.document.budget) {
             let found = found.map(|decoded| {
                 if let Some(flaw) = decoded.flaw {
                     warnings.add(format!("{}: {flaw}", image_name(self.document, image)));
@@ -186,12 +154,7 @@ fn encoded<'a>(
             Cow::Borrowed(buffers.view(view.value())?.bytes)
         }
     };
-    let header = images::header(&name, &bytes)?;
-    Ok(Encoded {
-        name,
-        bytes,
-        header,
-    })
+    Encoded::new(name, bytes)
 }
 
 /// An error of a file that the sentence around it names already.

@@ -261,11 +261,34 @@ fn pixels_come_from_the_budget_before_they_are_decoded() {
             max_memory: Some(bytes),
             ..Options::default()
         };
-        decode_within("", &png, &Budget::of(&options))
+        let encoded = Encoded::new(String::new(), png.as_slice().into());
+        let mut decoded = decode_all(vec![(0, encoded)], &Budget::of(&options));
+        decoded.remove(0).1
     };
     assert_eq!(
         within(7_000_000).unwrap_err(),
         "1000 x 1000 pixels: takes 8 MB of memory, 7 MB are left; make it smaller, or allow more with --max-memory"
     );
     assert!(within(8_000_000).is_ok());
+}
+
+#[test]
+fn many_images_come_back_under_their_keys() {
+    let png = |side: u32| {
+        let grey = ImageBuffer::from_pixel(side, side, Luma([7_u8]));
+        Encoded::new(String::new(), encoded(grey, ImageFormat::Png).into())
+    };
+    let options = Options {
+        max_memory: Some(100_000),
+        ..Options::default()
+    };
+    let broken = Encoded::new(String::new(), b"?".as_slice().into());
+    let all = vec![(3, png(1)), (1, png(5)), (0, png(1000)), (2, broken)];
+    let found = decode_all(all, &Budget::of(&options));
+    let widths = found.iter().map(|(key, found)| {
+        let width = found.as_ref().ok().map(|decoded| decoded.image.width);
+        (*key, width)
+    });
+    let expected = [(0, None), (1, Some(5)), (2, None), (3, Some(1))];
+    assert_eq!(widths.collect::<Vec<_>>(), expected);
 }

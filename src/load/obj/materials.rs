@@ -310,24 +310,6 @@ mod tests {
     }
 
     #[test]
-    fn statements_of_the_pbr_extension_make_metallic_roughness() {
-        let rough = |statements: &str| match made(statements).0.model {
-            Model::MetallicRoughness(made) => {
-                (made.base_color.factor, made.metallic, made.roughness)
-            }
-            other => panic!("{other:?}"),
-        };
-        let red = Rgb::new(1.0, 0.0, 0.0);
-        assert_eq!(rough("Kd 1 0 0\nPr .25\nPm .75"), (red, 0.75, 0.25));
-        // Blender: 1 - sqrt(Ns / 1000).
-        assert_eq!(rough("Kd 1 0 0\nPm 1\nNs 250"), (red, 1.0, 0.5));
-        assert_eq!(rough("Kd 1 0 0\nPc 1\nNs 4000\nillum 0"), (red, 0.0, 0.0));
-        assert_eq!(rough("map_Pr gone.png\nPm 1"), (GREY, 1.0, 0.5));
-        // Ke and norm are of the extension, too, but old files have them.
-        phong_of("Ke 1 1 1\nnorm gone.png");
-    }
-
-    #[test]
     fn a_missing_texture_leaves_the_factor() {
         let (material, warnings) = made("Kd 0 0 0\nmap_Kd gone.png\nmap_d gone.png\nbump gone.png");
         assert_eq!(material.textures().count(), 0);

@@ -1,7 +1,8 @@
 //! MTL, line by line, as the file says it. A wrong line costs that line alone.
 
 use super::map::Map;
-use super::text::{Lines, Words, name, number, shown};
+use super::text::{Lines, Words, name, shown};
+use super::values::{amount, color, illumination, index_of_refraction, share};
 use crate::color::Rgb;
 use crate::load::Warnings;
 
@@ -31,6 +32,14 @@ pub(super) struct MtlMaterial {
     pub(super) roughness: Option<f32>,
     /// `Pm`, in 0..1.
     pub(super) metal: Option<f32>,
+    /// `Ps`, in 0..1: how much sheen there is.
+    pub(super) sheen: Option<f32>,
+    /// `Pc`, in 0..1: how much clear coat there is.
+    pub(super) coat: Option<f32>,
+    /// `Pcr`, in 0..1.
+    pub(super) coat_roughness: Option<f32>,
+    /// `aniso`, in 0..1.
+    pub(super) anisotropy: Option<f32>,
     /// Whether any statement is of the PBR extension.
     pub(super) is_pbr: bool,
     /// `map_Kd`.
@@ -43,12 +52,16 @@ pub(super) struct MtlMaterial {
     pub(super) roughness_map: Option<Map>,
     /// `map_Pm`.
     pub(super) metal_map: Option<Map>,
+    /// `map_Ps`.
+    pub(super) sheen_map: Option<Map>,
     /// `map_d`.
     pub(super) dissolve_map: Option<Map>,
     /// `map_Bump` or `bump`.
     pub(super) bump_map: Option<Map>,
     /// `norm`.
     pub(super) normal_map: Option<Map>,
+    /// Parts of the format that luch lacks, each once.
+    pub(super) lacks: Vec<String>,
 }
 
 /// The materials of a text; `file` is its name, for warnings.
@@ -84,14 +97,20 @@ pub(super) fn read(text: &[u8], file: &str, warnings: &mut Warnings) -> Vec<MtlM
             )),
             Some(material) => match material.set(keyword, words, &mut ignored) {
                 Ok(true) => {}
-                Ok(false) => warnings.add(format!(
-                    "{file}: statement \"{}\" is not supported and ignored",
-                    shown(keyword)
-                )),
+                Ok(false) => {
+                    warnings.add(format!(
+                        "{file}: statement \"{}\" is not supported and ignored",
+                        shown(keyword)
+                    ));
+                    material.lack(part_of_format(keyword).map(String::from));
+                }
                 Err(problem) => bad(format!("{} {problem}", shown(keyword))),
             },
         }
         for option in ignored {
+            if let Some(material) = materials.last_mut() {
+                material.lack(Some(format!("texture option {option}")));
+            }
             warnings.add(format!(
                 "{file}: texture option {option} is not supported and ignored"
             ));
@@ -129,6 +148,11 @@ impl MtlMaterial {
             b"tf" => self.filter = Some(color(words)?),
             b"pr" => self.roughness = Some(share(words)?),
             b"pm" => self.metal = Some(share(words)?),
+            b"ps" => self.sheen = Some(share(words)?),
+            b"pc" => self.coat = Some(share(words)?),
+            b"pcr" => self.coat_roughness = Some(share(words)?),
+            b"aniso" => self.anisotropy = Some(share(words)?),
+            b"map_ps" => self.sheen_map = Some(Map::read(words, ignored)?),
             b"map_pr" => self.roughness_map = Some(Map::read(words, ignored)?),
             b"map_pm" => self.metal_map = Some(Map::read(words, ignored)?),
             b"illum" => self.illumination = Some(illumination(words)?),
@@ -144,78 +168,24 @@ impl MtlMaterial {
         }
         Ok(true)
     }
-}
 
-/// `r g b`, or one number for all three.
-fn color(mut words: Words) -> Result<Rgb, String> {
-    let first = words.rest();
-    if first.starts_with(b"spectral") || first.starts_with(b"xyz") {
-        return Err(format!("is given as \"{}\", expected r g b", shown(first)));
-    }
-    let channels = numbers::<3>(&mut words)?;
-    let (red, green, blue) = match channels {
-        (1, [grey, _, _]) => (grey, grey, grey),
-        (3, [red, green, blue]) => (red, green, blue),
-        (count, _) => {
-            return Err(format!("has too few numbers ({count}), expected r g b"));
-        }
-    };
-    if [red, green, blue].iter().all(|channel| *channel >= 0.0) {
-        Ok(Rgb::new(red, green, blue))
-    } else {
-        Err(format!(
-            "is {red} {green} {blue}, expected 0 or more in every channel"
-        ))
+    fn lack(&mut self, part: Option<String>) {
+        self.lacks
+            .extend(part.filter(|part| !self.lacks.contains(part)));
     }
 }
 
-fn amount(mut words: Words) -> Result<f32, String> {
-    match numbers::<1>(&mut words)? {
-        (1, [amount]) if amount >= 0.0 => Ok(amount),
-        (1, [amount]) => Err(format!("is {amount}, expected 0 or more")),
-        _ => Err("has no number, expected one".into()),
-    }
-}
-
-fn index_of_refraction(words: Words) -> Result<f32, String> {
-    match amount(words)? {
-        0.0 => Err("is 0, expected an index of refraction, as 1.5".into()),
-        index => Ok(index),
-    }
-}
-
-fn share(mut words: Words) -> Result<f32, String> {
-    if words.rest().starts_with(b"-halo") {
-        return Err("depends on the view (-halo), expected a number".into());
-    }
-    match numbers::<1>(&mut words)? {
-        (1, [share]) if (0.0..=1.0).contains(&share) => Ok(share),
-        (1, [share]) => Err(format!("is {share}, expected a share from 0 to 1")),
-        _ => Err("has no number, expected one".into()),
-    }
-}
-
-fn illumination(mut words: Words) -> Result<u32, String> {
-    const LAST: u32 = 10;
-    let word = words.next().unwrap_or_default();
-    let model: Option<u32> = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-    model
-        .filter(|&model| model <= LAST)
-        .ok_or_else(|| format!("is \"{}\", expected 0 to {LAST}", shown(word)))
-}
-
-/// How many numbers there are, up to `N`, and them.
-fn numbers<const N: usize>(words: &mut Words) -> Result<(usize, [f32; N]), String> {
-    let mut numbers = [0.0; N];
-    let mut count = 0;
-    let words = words.take_while(|word| !word.starts_with(b"#"));
-    for (slot, word) in numbers.iter_mut().zip(words) {
-        *slot = number(word)
-            .filter(|number| number.is_finite())
-            .ok_or_else(|| format!("has \"{}\", expected a finite number", shown(word)))?;
-        count += 1;
-    }
-    Ok((count, numbers))
+/// What of the format a statement is that luch does not read.
+fn part_of_format(keyword: &[u8]) -> Option<&'static str> {
+    Some(match keyword.to_ascii_lowercase().as_slice() {
+        b"refl" | b"map_refl" => "reflection maps (refl)",
+        b"disp" | b"map_disp" => "displacement maps (disp)",
+        b"decal" => "decals (decal)",
+        b"map_ns" => "maps of highlights' width (map_Ns)",
+        b"anisor" => "rotation of anisotropy (anisor)",
+        b"map_pc" | b"map_pcr" => "maps of clear coat (map_Pc)",
+        _ => return None,
+    })
 }
 
 #[cfg(test)]
@@ -299,11 +269,11 @@ mod tests {
 
     #[test]
     fn each_unknown_kind_is_told_once() {
-        let (_, warnings) = read_all("newmtl a\nPc 1\nPc 2\nmap_Kd -mm 0 1 a.png\n");
+        let (_, warnings) = read_all("newmtl a\nrefl a.png\nrefl b.png\nmap_Kd -mm 0 1 a.png\n");
         assert_eq!(
             warnings,
             [
-                "a.mtl: statement \"Pc\" is not supported and ignored (2 times)",
+                "a.mtl: statement \"refl\" is not supported and ignored (2 times)",
                 "a.mtl: texture option -mm is not supported and ignored"
             ]
         );

@@ -1,14 +1,18 @@
-//! The textures of a model: found, decoded once, used by many materials.
+//! The textures of a model: found, decoded once and at the same time, used by many materials.
+//!
+//! Materials are made twice: first only to learn which images they want.
 
 use super::bump;
 use super::find::{Finder, Found};
 use super::map::Map;
 use super::pbr;
 use super::text::shown;
-use crate::load::{Budget, TextureFacts, Warnings, files, images};
+use crate::load::images::{self, Decoded, Encoded};
+use crate::load::{Budget, TextureFacts, Warnings, files};
 use crate::material::{AlphaChannel, NormalMap};
 use crate::texture::{Encoding, Filter, Image, Pixels, Texture, TextureUse, Wrap};
 use glam::{Mat3, Vec3};
+use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,7 +28,11 @@ pub(super) struct Textures {
     pub(super) facts: Vec<TextureFacts>,
     pub(super) files: Vec<PathBuf>,
     pub(super) warnings: Warnings,
-    /// What every file that was tried became.
+    /// Files by where they really lie, each with a path to it, that were asked for and not decoded yet.
+    wanted: Vec<(PathBuf, PathBuf)>,
+    /// Files that were, by where they really lie.
+    decoded: HashMap<PathBuf, Result<Decoded, String>>,
+    /// What every file that was used became.
     images: HashMap<PathBuf, Option<Arc<Image>>>,
     /// Normals by the file of their heights, whether it repeats, and the channel.
     from_heights: HashMap<(String, bool, Option<u8>), Arc<Image>>,
@@ -51,6 +59,13 @@ impl Textures {
         let map = map?;
         let image = self.image(map)?;
         Some(self.used(image, map, Encoding::Srgb))
+    }
+
+    /// A texture of numbers that are no colours.
+    pub(super) fn amount(&mut self, map: Option<&Map>) -> Option<TextureUse> {
+        let map = map?;
+        let image = self.image(map)?;
+        Some(self.used(image, map, Encoding::Linear))
     }
 
     /// A texture of coverage, and where in it that is: in an alpha that says something, or else in a grey picture.
@@ -192,19 +207,19 @@ impl Textures {
         if let Some(known) = self.images.get(&key) {
             return known.clone();
         }
+        let Some(decoded) = self.decoded.remove(&key) else {
+            if !self.wanted.iter().any(|(known, _)| *known == key) {
+                self.wanted.push((key, path));
+            }
+            return None;
+        };
         let name = path.to_string_lossy().into_owned();
-        let decoded = files::read(&path, &self.budget)
-            .map_err(|error| error.to_string())
-            .and_then(|bytes| {
-                self.files.push(path.clone());
-                images::decode_within(&name, &bytes, &self.budget)
-                    .map_err(|problem| format!("{name}: {problem}"))
-            });
         let image = match decoded {
             Ok(decoded) => {
                 if let Some(flaw) = decoded.flaw {
                     self.warnings.add(format!("{name}: {flaw}"));
                 }
+                self.files.push(path);
                 Some(Arc::new(decoded.image))
             }
             Err(problem) => {
@@ -219,6 +234,39 @@ impl Textures {
         });
         self.images.insert(key, image.clone());
         image
+    }
+
+    /// None again, with every image decoded that was asked for and was not there.
+    pub(super) fn with_wanted(self) -> Textures {
+        let budget = self.budget;
+        let read = self.wanted.into_par_iter().map(|(key, path)| {
+            let name = path.to_string_lossy().into_owned();
+            let bytes = files::read(&path, &budget).map_err(|error| error.to_string());
+            (key, name, bytes)
+        });
+        let mut decoded = HashMap::new();
+        let mut encoded = Vec::new();
+        let mut names = HashMap::new();
+        for (key, name, bytes) in read.collect::<Vec<_>>() {
+            match bytes {
+                Ok(bytes) => {
+                    encoded.push((key.clone(), Encoded::new(name.clone(), bytes.into())));
+                    names.insert(key, name);
+                }
+                Err(problem) => drop(decoded.insert(key, Err(problem))),
+            }
+        }
+        for (key, found) in images::decode_all(encoded, &budget) {
+            let name = names.remove(&key).unwrap_or_default();
+            let found = found.map_err(|problem| format!("{name}: {problem}"));
+            decoded.insert(key, found);
+        }
+        Textures {
+            budget,
+            finder: self.finder,
+            decoded,
+            ..Textures::default()
+        }
     }
 }
 
