@@ -5,6 +5,7 @@ mod analytic;
 mod assets;
 mod cli;
 mod common;
+mod finish;
 mod golden;
 mod invariance;
 mod layers;
