@@ -17,6 +17,7 @@ mod options;
 mod others;
 mod primitive;
 mod slab;
+mod transparent;
 mod tree;
 mod wide;
 
@@ -32,6 +33,7 @@ use kernel::{Best, Scratch};
 use others::{Other, Others};
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
+use transparent::Transparent;
 use tree::Tree;
 
 /// A scene's primitives, ready to be searched.
@@ -47,7 +49,7 @@ pub struct Accel {
     others: Option<Others>,
     isa: Isa,
     packets: bool,
-    has_transparent: bool,
+    transparent: Transparent,
     /// The most that a search leaves on its stack.
     stack_size: usize,
     statistics: Statistics,
@@ -114,7 +116,7 @@ impl Accel {
             others: None,
             isa: options.isa,
             packets: options.packets,
-            has_transparent: (0..scene.materials().len() as u32).any(|material| !opaque(material)),
+            transparent: Transparent::of(scene),
             stack_size: 0,
             statistics: Statistics::default(),
         };
@@ -176,9 +178,14 @@ impl Accel {
         }
     }
 
-    /// Whether any material of the scene lets some light through, so that [`Accel::occluded`] is not the whole answer.
+    /// Whether anything in the scene lets some light through, so that [`Accel::occluded`] is not the whole answer.
     pub fn has_transparent(&self) -> bool {
-        self.has_transparent
+        !self.transparent.is_nowhere()
+    }
+
+    /// Whether the ray may meet such a thing; it does not where this is false.
+    pub fn may_meet_transparent(&self, ray: &Ray) -> bool {
+        self.transparent.may_be_met(ray)
     }
 
     /// The instruction set of the kernels that search.

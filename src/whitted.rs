@@ -341,7 +341,7 @@ impl<'a> Tracer<'a> {
             accel.intersect_all(rays, hits);
             statistics.search += since(start);
         };
-        let lost = layers.follow(self.scene, search, &shadow_rays.rays, &self.occluded);
+        let lost = layers.follow(self.scene, accel, search, &shadow_rays.rays, &self.occluded);
         statistics.lost_in_layers += lost;
         for (promised, &share) in shadow_rays.light.iter().zip(&layers.shares) {
             if share != Rgb::BLACK {

@@ -5,6 +5,7 @@ mod analytic;
 mod assets;
 mod cli;
 mod common;
+mod finish;
 mod golden;
 #[cfg(unix)]
 mod hostile;

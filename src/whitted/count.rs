@@ -60,7 +60,7 @@ impl Tracer<'_> {
                         hit
                     }));
                 };
-                layers.follow(scene, search, from_ref(ray), &[false]);
+                layers.follow(scene, accel, search, from_ref(ray), &[false]);
             }
         }
     }

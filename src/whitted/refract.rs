@@ -8,6 +8,11 @@ use crate::scene::{Place, Through, Way};
 use crate::shade::{mirror, refraction};
 use glam::Vec3;
 
+/// From so many boundaries on, light that is reflected totally leaves its body, straight on. Facets send some round and
+/// round, at last nearly for ever: without this a ball of 1280 triangles has pixels of 0.21 in an evenly white world,
+/// where nothing is darker than the world.
+const LONGEST_WAY_OUT: u32 = MAX_LAYERS / 2;
+
 impl Tracer<'_> {
     /// Takes from the paths that travel in bodies what they lose on their way there.
     ///
@@ -34,6 +39,20 @@ impl Tracer<'_> {
         let out = matches!(through.way, Way::Out { .. });
         if out && passed == Rgb::BLACK {
             let path = self.paths.paths[arrival.path as usize];
+            if u32::from(path.layers) >= LONGEST_WAY_OUT {
+                let body = NO_BODY;
+                let direct = false;
+                self.go_straight(
+                    arrival.path as usize,
+                    Path {
+                        body,
+                        direct,
+                        energy: mirrored,
+                        ..path
+                    },
+                );
+                return;
+            }
             let Place { normal, .. } = arrivals.place(index);
             let (ray, energy) = (self.mirror_ray(arrivals, index, normal), mirrored);
             self.go_on(ray, Path { energy, ..path });
@@ -41,16 +60,27 @@ impl Tracer<'_> {
         }
         self.mirror(arrivals, index, mirrored);
         match through.way {
-            Way::Straight => self.go_straight(arrival.path as usize, passed),
+            Way::Straight => {
+                let index = arrival.path as usize;
+                let path = self.paths.paths[index];
+                self.go_straight(
+                    index,
+                    Path {
+                        energy: passed,
+                        ..path
+                    },
+                );
+            }
             Way::In { material, indices } => self.bend(arrivals, index, passed, indices, material),
             Way::Out { indices } => self.bend(arrivals, index, passed, indices, NO_BODY),
         }
     }
 
-    fn go_straight(&mut self, index: usize, energy: Rgb) {
-        let (path, ray) = (self.paths.paths[index], self.paths.rays[index]);
+    /// Sends on what comes along path number `index` as `path`, which bends nowhere.
+    fn go_straight(&mut self, index: usize, path: Path) {
         if let Some(hit) = self.hits[index] {
-            self.go_on(ray.beyond(hit.t, hit.primitive), Path { energy, ..path });
+            let ray = self.paths.rays[index].beyond(hit.t, hit.primitive);
+            self.go_on(ray, path);
         }
     }
 

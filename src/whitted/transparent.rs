@@ -1,6 +1,7 @@
 //! What transparent surfaces, and the bodies between them, leave of shadow rays' light.
 
 use super::MAX_LAYERS;
+use crate::accel::Accel;
 use crate::color::Rgb;
 use crate::geometry::Hit;
 use crate::material::Volume;
@@ -40,11 +41,12 @@ impl<'a> ThroughLayers<'a> {
     pub(super) fn follow(
         &mut self,
         scene: &'a Scene,
+        accel: &Accel,
         mut search: impl FnMut(&[Ray], &mut Vec<Option<Hit>>),
         shadow_rays: &[Ray],
         occluded: &[bool],
     ) -> u64 {
-        self.start(shadow_rays, occluded);
+        self.start(accel, shadow_rays, occluded);
         let mut lost = 0;
         for layer in 0..=MAX_LAYERS {
             if self.rays.is_empty() {
@@ -78,7 +80,7 @@ impl<'a> ThroughLayers<'a> {
         lost
     }
 
-    fn start(&mut self, shadow_rays: &[Ray], occluded: &[bool]) {
+    fn start(&mut self, accel: &Accel, shadow_rays: &[Ray], occluded: &[bool]) {
         self.rays.clear();
         self.under_way.clear();
         self.shares.clear();
@@ -88,6 +90,9 @@ impl<'a> ThroughLayers<'a> {
                 continue;
             }
             self.shares.push(Rgb::WHITE);
+            if !accel.may_meet_transparent(ray) {
+                continue;
+            }
             self.rays.push(*ray);
             self.under_way.push(UnderWay {
                 index,

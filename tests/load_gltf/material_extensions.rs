@@ -210,13 +210,14 @@ fn textures_of_every_slot_are_decoded() {
     const PNG: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
     let mut file = File::triangle();
     file.json["images"] = json!([{"uri": PNG}]);
-    file.json["textures"] = json!(vec![json!({"source": 0}); 13]);
+    file.json["textures"] = json!(vec![json!({"source": 0}); 14]);
     let slot = |index: u32| json!({"index": index});
     file.json["materials"] = json!([
         {"extensions": {
             "KHR_materials_anisotropy": {"anisotropyStrength": 1, "anisotropyTexture": slot(0)},
             "KHR_materials_clearcoat": {
-                "clearcoatFactor": 1, "clearcoatTexture": slot(1), "clearcoatRoughnessTexture": slot(2)},
+                "clearcoatFactor": 1, "clearcoatTexture": slot(1), "clearcoatRoughnessTexture": slot(2),
+                "clearcoatNormalTexture": {"index": 13, "scale": 0.5}},
             "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1,
                 "diffuseTransmissionTexture": slot(3), "diffuseTransmissionColorTexture": slot(4)},
             "KHR_materials_iridescence": {
@@ -232,7 +233,10 @@ fn textures_of_every_slot_are_decoded() {
     let model = file.model();
     let used = |index: usize| model.materials[index].textures().count();
     // The second one's diffuse texture is its coverage, too.
-    assert_eq!((used(0), used(1)), (12, 3));
+    assert_eq!((used(0), used(1)), (13, 3));
+    let coat = model.materials[0].clearcoat();
+    let normals = coat.and_then(|coat| coat.normal_map.as_ref());
+    assert_eq!(normals.map(|map| map.scale), Some(0.5));
     assert_eq!(model.facts.textures[0].size, Some((1, 1)));
 }
 
