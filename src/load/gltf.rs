@@ -60,7 +60,7 @@ mod textures;
 mod transforms;
 mod uri;
 
-use super::{Budget, Facts, Model, Options, Warnings, files};
+use super::{Budget, Facts, Model, Options, Warnings, files, text_bytes};
 use crate::Error;
 use buffers::Buffers;
 use document::{Document, one_line};
@@ -89,10 +89,6 @@ pub fn open(path: &Path, options: &Options) -> Result<Model, Error> {
 
 /// [`open`] with memory from a budget.
 pub(super) fn open_within(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {
-    budget.reading(|| read(path, options, budget))
-}
-
-fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error> {
     let bytes = files::read(path, budget)?;
     let mut warnings = Warnings::default();
     let container = container::open(path, &bytes, &mut warnings)?;
@@ -180,8 +176,10 @@ fn read(path: &Path, options: &Options, budget: &Budget) -> Result<Model, Error>
     (model.meshes, model.shapes) = (geometry.meshes, geometry.shapes);
     model.deformations = geometry.deformations;
     let mut warnings = std::mem::take(&mut model.warnings);
-    poses::fit(&mut model, meshes::budget(&buffers), &mut warnings);
+    poses::fit(&mut model, meshes::budget(&buffers), budget, &mut warnings);
     model.warnings = warnings;
+    // What was made of them stays taken.
+    budget.give_back(bytes.len() as u64 + text_bytes::of_json(container.json));
     Ok(model)
 }
 

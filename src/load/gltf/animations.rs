@@ -246,6 +246,9 @@ impl Numbers<'_> {
         let kinds = [Type::Scalar, Type::Vec2, Type::Vec3, Type::Vec4];
         let elements = accessors::read(self.document, self.buffers, accessor, &kinds)?;
         self.spend(elements.count.saturating_mul(elements.components))?;
+        let bytes = (elements.count as u64).saturating_mul(elements.components as u64 * 8);
+        let taken = self.document.budget.take(bytes);
+        taken.map_err(|problem| format!("accessor {accessor}: {problem}"))?;
         let numbers = elements.all_numbers();
         if !numbers.iter().all(|number| number.is_finite()) {
             return Err(format!("accessor {accessor}: is not of finite numbers"));

@@ -19,7 +19,8 @@ use std::collections::BTreeMap;
 /// As files call it.
 pub(super) const NAME: &str = "KHR_draco_mesh_compression";
 
-/// How many bytes a corner or a vertex may have: more than all attributes that glTF names have together.
+/// How many bytes a corner or a vertex may have: twice all attributes that glTF names have together, for what decoding
+/// takes beside.
 const BYTES_AN_ELEMENT: u64 = 256;
 
 /// What a primitive says of its stream.
@@ -85,10 +86,12 @@ impl Compressed {
         *budget = budget
             .checked_sub(stream.len() as u64)
             .ok_or("the streams up to here are many times what the buffers hold")?;
+        let memory = document.budget.left() / BYTES_AN_ELEMENT;
+        let most = memory.min(*budget);
         let limits = DecodeLimits::default()
-            .with_max_points(*budget)
-            .with_max_faces(*budget / 3)
-            .with_max_decoded_bytes(budget.saturating_mul(BYTES_AN_ELEMENT));
+            .with_max_points(most)
+            .with_max_faces(most / 3)
+            .with_max_decoded_bytes(most.saturating_mul(BYTES_AN_ELEMENT) / 2);
         let mut mesh = Mesh::new();
         MeshDecoder::new()
             .decode(

@@ -18,6 +18,9 @@ pub(super) const NAME: &str = "EXT_mesh_gpu_instancing";
 /// How many parts of meshes a file may place beside one for each byte of its buffers.
 const FREE_PARTS: u64 = 1 << 16;
 
+/// Where it stands, in the model and in the scene.
+const BYTES_A_PART: u64 = 512;
+
 #[derive(Deserialize)]
 struct Instancing {
     attributes: BTreeMap<String, u64>,
@@ -76,6 +79,9 @@ impl<'a> Reader<'a> {
             .ok_or_else(|| {
                 format!("{count} instances of {parts} parts are many times what the buffers hold")
             })?;
+        let bytes = BYTES_A_PART * count as u64 * parts.max(1) as u64;
+        let taken = self.document.budget.take(bytes);
+        taken.map_err(|problem| problem.to_string())?;
         let transform = |i| {
             Factors::new(
                 translation.as_ref().map(|elements| elements.floats(i)),

@@ -88,6 +88,8 @@ pub(super) fn unpack(
             left = left
                 .checked_sub(compressed.unpacked_bytes())
                 .ok_or("the views up to here unpack to many times what the buffers hold")?;
+            let taken = document.budget.take(compressed.unpacked_bytes());
+            taken.map_err(|problem| problem.to_string())?;
             Ok(compressed)
         });
         found.push((index, name, compressed));

@@ -2,8 +2,9 @@
 
 use super::Warnings;
 use super::document::named;
+use super::primitives::BYTES_A_VERTEX;
 use crate::load::pose::Target;
-use crate::load::{Model, ModelMesh};
+use crate::load::{Budget, Model, ModelMesh};
 use std::collections::HashSet;
 
 /// What a shape has for poses.
@@ -17,8 +18,8 @@ struct Posable {
 }
 
 /// Takes skins from nodes whose mesh they do not fit, and poses from nodes that would come to more than `budget`
-/// vertices: a short file can show one long mesh in as many poses as it has nodes.
-pub(super) fn fit(model: &mut Model, mut budget: u64, warnings: &mut Warnings) {
+/// vertices or more than `memory` holds: a short file can show one long mesh in as many poses as it has nodes.
+pub(super) fn fit(model: &mut Model, mut budget: u64, memory: &Budget, warnings: &mut Warnings) {
     let shapes = model.shapes.iter();
     let posables: Vec<Posable> = shapes.map(|shape| posable(model, shape)).collect();
     let weighted_by_curves: HashSet<usize> = model.motion.weighted_nodes().collect();
@@ -47,10 +48,17 @@ pub(super) fn fit(model: &mut Model, mut budget: u64, warnings: &mut Warnings) {
         if !known.insert((shape, node.skin, is_weighted.then_some(index))) {
             continue;
         }
-        match budget.checked_sub(posable.vertices) {
-            Some(rest) => budget = rest,
-            None => {
-                let problem = "all poses are many times what the buffers hold";
+        let rest = budget
+            .checked_sub(posable.vertices)
+            .ok_or_else(|| "all poses are many times what the buffers hold".to_owned());
+        let bytes = posable.vertices.saturating_mul(BYTES_A_VERTEX);
+        let taken = rest.and_then(|rest| match memory.take(bytes) {
+            Ok(()) => Ok(rest),
+            Err(problem) => Err(format!("a pose {problem}")),
+        });
+        match taken {
+            Ok(rest) => budget = rest,
+            Err(problem) => {
                 warnings.add(format!("{problem}: one is left out"));
                 (node.skin, node.weights) = (None, None);
                 left_out.insert(index);

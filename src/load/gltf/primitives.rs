@@ -31,7 +31,7 @@ pub(super) struct Reader<'a> {
 }
 
 /// Position, normal, tangent, one set of texture coordinates and another attribute.
-const BYTES_A_VERTEX: u64 = 64;
+pub(super) const BYTES_A_VERTEX: u64 = 64;
 
 /// What a primitive draws.
 pub(super) enum Drawn {

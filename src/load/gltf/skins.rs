@@ -70,6 +70,9 @@ fn one(
         let (found, expected) = (matrices.count, joints.len());
         return Err(wrong(format!("has {found} elements for {expected} joints")));
     }
+    let bytes = size_of::<DAffine3>() as u64 * joints.len() as u64;
+    let taken = document.budget.take(bytes);
+    taken.map_err(|problem| wrong(problem.to_string()))?;
     let inverse_binds: Vec<DAffine3> = (0..joints.len())
         .map(|i| affine(&matrices.floats::<16>(i)))
         .collect();

@@ -64,6 +64,7 @@ fn finish(mtl: &MtlMaterial, textures: &mut Textures) -> Option<Box<Finish>> {
     let clearcoat = coat.map(|weight| Clearcoat {
         weight: Textured::uniform(weight),
         roughness: Textured::uniform(mtl.coat_roughness.unwrap_or(COAT_ROUGHNESS)),
+        normal_map: None,
     });
     let anisotropy = mtl.anisotropy.filter(|&strength| strength > 0.0);
     let finish = Finish {
@@ -160,6 +161,7 @@ mod tests {
         let coat = |weight, roughness| Clearcoat {
             weight: Textured::uniform(weight),
             roughness: Textured::uniform(roughness),
+            normal_map: None,
         };
         let sheen = Sheen {
             color: Textured::uniform(Rgb::grey(0.25)),
