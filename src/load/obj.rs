@@ -5,7 +5,7 @@
 //! no line in its errors, fails on continuation, byte order marks and Latin-1, and gives up a whole MTL for one wrong
 //! line. It stands beside ours in the tests, as an oracle for plain files.
 //!
-//! What is read how:
+//! A file is read in pieces at the same time, see `obj/pieces.rs`, and so are its textures. What is read how:
 //!
 //! - A shape is an object (`o`), in files without one a group (`g`); a part of it is what has one material.
 //! - A face without normals is flat, or smooth where a smoothing group is on: see `obj/smooth.rs`.
