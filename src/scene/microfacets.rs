@@ -81,7 +81,7 @@ impl Scene {
 
     /// The share of diffuse light from behind that comes through, whatever lies over the surface; none but where
     /// KHR_materials_diffuse_transmission says so.
-    pub(super) fn from_behind(&self, model: &Model, vertex: &Vertex) -> Rgb {
+    pub(super) fn diffuse_from_behind(&self, model: &Model, vertex: &Vertex) -> Rgb {
         let Model::MetallicRoughness(m) = model else {
             return Rgb::BLACK;
         };

@@ -216,7 +216,7 @@ impl Scene {
             lit: !matches!(material.model, Model::Unlit { .. }),
             reflectance,
             through,
-            from_behind: self.from_behind(&material.model, &vertex),
+            from_behind: self.diffuse_from_behind(&material.model, &vertex),
             coverage,
         }
     }
