@@ -121,7 +121,9 @@ pub(super) fn named_by(
         Some(folder) if !is_in(&beside_link) && is_in(&folder) => folder,
         _ => beside_link,
     };
-    if Reach::of(model, options).holds(&folder, reference) {
+    // An absolute path means one machine's disk, even where it leads back here.
+    let is_portable = reference.is_relative() || options.allow_external;
+    if is_portable && Reach::of(model, options).holds(&folder, reference) {
         return Ok(folder.join(reference));
     }
     let shown: String = reference.to_string_lossy().chars().take(80).collect();
@@ -185,7 +187,6 @@ mod tests {
             "below/own",
             "below/../own",
             "below/../../in/own",
-            absolute,
             "link-within",
             "gone",
             "gone/../../in/gone",
@@ -202,6 +203,7 @@ mod tests {
             "folder-out/secret",
             "/dev/zero",
             "/gone",
+            absolute,
             "..",
         ] {
             assert!(!is_allowed(&model, reference), "{reference}");
