@@ -99,7 +99,7 @@ fn a_lamp_behind_a_leaf_shines_through_it_as_lambert_says() {
     let sun = LightKind::Directional { direction: along };
     let position = along * -9.0;
     let point = LightKind::Point { position };
-    assert_close(lit(sun.clone(), false), [0.25, 0.125, 0.0]);
+    assert_close(lit(sun, false), [0.25, 0.125, 0.0]);
     assert_close(lit(point, false), [0.25, 0.125, 0.0]);
     // Not through something else, and not from before the leaf, whose own diffuse light is black.
     assert_close(lit(sun, true), [0.0; 3]);
