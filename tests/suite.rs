@@ -2,6 +2,7 @@
 
 mod accel;
 mod analytic;
+mod answers;
 mod assets;
 mod cli;
 mod common;
