@@ -5,6 +5,8 @@
 
 use super::common::{models, picture};
 use luch::load;
+use luch::material::AlphaMode;
+use luch::scene::Scene;
 use luch::shade::Shading;
 use std::any::Any;
 use std::panic::{self, AssertUnwindSafe};
@@ -27,6 +29,8 @@ struct Outcome {
 /// A picture, and what was said beside it.
 struct Drawn {
     blank: bool,
+    /// Whether no triangle has an area and is there at all: then the picture is rightly blank.
+    nothing_there: bool,
     finite: bool,
     warnings: Vec<String>,
 }
@@ -122,8 +126,19 @@ fn drawn(file: &Path, side: u32) -> Result<Drawn, String> {
     let (pixels, _) = beauty.as_chunks::<4>();
     Ok(Drawn {
         blank: pixels.iter().all(|pixel| *pixel == pixels[0]),
+        nothing_there: nothing_there(&scene),
         finite: beauty.iter().all(|number| number.is_finite()),
         warnings,
+    })
+}
+
+fn nothing_there(scene: &Scene) -> bool {
+    scene.instances().iter().all(|instance| {
+        let alpha = &scene.material(instance.material).alpha;
+        let is_gone = alpha.mode != AlphaMode::Opaque && alpha.coverage.factor == 0.0;
+        let mesh = scene.mesh(instance.mesh);
+        let mut triangles = (0..mesh.triangles.len() as u32).map(|index| mesh.triangle(index).0);
+        is_gone || triangles.all(|[a, b, c]| (b - a).cross(c - a).length() == 0.0)
     })
 }
 
@@ -148,7 +163,14 @@ impl Outcome {
     /// Why nothing is seen.
     fn reason(&self) -> String {
         match &self.result {
-            Ok(_) => format!("{}: gives a blank picture", self.file.display()),
+            Ok(drawn) => {
+                let why = if drawn.nothing_there {
+                    "has nothing to draw but what has no area or is transparent"
+                } else {
+                    "gives a blank picture"
+                };
+                format!("{}: {why}", self.file.display())
+            }
             Err(Refusal::Error(error)) => error.clone(),
             Err(Refusal::Panic(panic)) => format!("{}: panics: {panic}", self.file.display()),
         }

@@ -91,13 +91,14 @@ mod tests {
 
     #[test]
     fn a_coat_that_faces_another_way_mirrors_and_shines_along_its_own_normal() {
-        // cos 60 degrees = 1/2: F = 0.07. Roughness 1/2: k_s = 0.16, exponent 30, mirrored (1 - 5/6)^2.
+        // cos 60 degrees = 1/2: F = 0.07; at roughness 1/2 it is 0.04 + 0.46 / 32 = 0.054375, k_s = 0.16, exponent 30,
+        // mirrored (1 - 5/6)^2.
         let base = Reflectance {
             specular: Rgb::BLACK,
             ..glossy(8.0)
         };
         let tilted = Vec3::new(0.0, 0.5, 0.75f32.sqrt());
-        for (roughness, mirrored) in [(0.0, 0.07), (0.5, 0.0553 / 36.0)] {
+        for (roughness, mirrored) in [(0.0, 0.07), (0.5, 0.054375 / 36.0)] {
             let coat = Clearcoat {
                 weight: 1.0,
                 roughness,
