@@ -93,6 +93,7 @@ fn everything_in_a_model_is_told_as_json() {
             "points": 3,
             "lines": 0,
             "materials": ["oak"],
+            "variants": [],
             "textures": [{"name": "grain", "size": [1, 1]}],
             "lights": ["sun"],
             "cameras": ["door"],

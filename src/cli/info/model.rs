@@ -21,6 +21,8 @@ pub(super) struct ModelInfo {
     points: usize,
     lines: usize,
     materials: Vec<String>,
+    /// Of the materials, for `--variant`.
+    variants: Vec<String>,
     textures: Vec<Texture>,
     lights: Vec<String>,
     cameras: Vec<String>,
@@ -67,6 +69,7 @@ impl ModelInfo {
             points: facts.points,
             lines: facts.lines,
             materials: materials.map(|m| m.name.clone()).collect(),
+            variants: facts.variants.clone(),
             textures: facts.textures.iter().map(texture).collect(),
             lights: model.lights.iter().map(|l| l.name.clone()).collect(),
             cameras: model.cameras.iter().map(|c| c.name.clone()).collect(),
@@ -90,8 +93,11 @@ impl ModelInfo {
             let segments = counted(self.lines as u64, "line", "lines");
             lines.push(("not drawn", format!("{points}, {segments}")));
         }
+        lines.push(("materials", listed(&self.materials)));
+        if !self.variants.is_empty() {
+            lines.push(("variants", listed(&self.variants)));
+        }
         lines.extend([
-            ("materials", listed(&self.materials)),
             ("textures", listed(&textures)),
             ("lights", listed(&self.lights)),
             ("cameras", listed(&self.cameras)),
