@@ -155,6 +155,8 @@ impl Asset {
             mut choices,
             ..
         } = described;
+        let looked_at = self.budget.check(viewpoint::bytes_of_faces(&scene));
+        looked_at.map_err(|problem| problem.of(&self.file, "the scene"))?;
         scene.camera = viewpoint::camera(self, &cameras, viewpoint, &scene, &mut choices)?;
         viewpoint::light(self, viewpoint, &mut scene, &mut choices);
         scene.background = viewpoint::background(self, viewpoint, &mut choices);

@@ -1,20 +1,19 @@
 //! How an asset is to be looked at, and what was chosen where neither the file nor the user said.
 
 mod cameras;
+mod faces;
 mod lights;
 
 pub use cameras::PlacedCamera;
 pub(super) use cameras::{camera, cameras};
+pub(super) use faces::bytes_of_faces;
+use faces::faces;
 pub(super) use lights::{carried, light};
 
 use super::Asset;
 use crate::camera::Camera;
 use crate::color::Rgb;
-use crate::framing::Face;
-use crate::generate;
-use crate::geometry::Triangle;
-use crate::scene::{Background, SceneDescription, Shown};
-use std::sync::Arc;
+use crate::scene::{Background, Shown};
 
 /// How an asset is to be looked at.
 #[derive(Clone, Debug)]
@@ -112,36 +111,4 @@ fn default_background(asset: &Asset, exposure: f32) -> Rgb {
     } else {
         MODEL_BACKGROUND * libm::exp2f(-exposure)
     }
-}
-
-/// The triangles of a scene, in world space, and some on each sphere. Planes have no end, and count for nothing.
-fn faces(scene: &SceneDescription) -> impl Iterator<Item = Face> + Clone {
-    let ball = Arc::new(generate::icosphere(2));
-    let on_spheres = scene.spheres.iter().flat_map(move |sphere| {
-        let (center, radius) = (sphere.shape.center, sphere.shape.radius);
-        let ball = ball.clone();
-        (0..ball.triangles.len() as u32).map(move |index| Face {
-            triangle: Triangle(ball.triangle(index).0.map(|p| center + p * radius)),
-            double_sided: false,
-        })
-    });
-    let on_meshes = scene.instances.iter().flat_map(|instance| {
-        let mesh = &scene.meshes[instance.mesh as usize];
-        let double_sided = scene.materials[instance.material as usize].double_sided;
-        let to_world = instance.to_world.as_affine3();
-        let mirrors = instance.to_world.matrix3.determinant() < 0.0;
-        (0..mesh.triangles.len() as u32).map(move |index| {
-            let mut triangle = mesh.triangle(index);
-            triangle.0 = triangle.0.map(|p| to_world.transform_point3(p));
-            if mirrors {
-                // As the scene has it: fronts stay fronts.
-                triangle.0.swap(1, 2);
-            }
-            Face {
-                triangle,
-                double_sided,
-            }
-        })
-    });
-    on_meshes.chain(on_spheres)
 }
