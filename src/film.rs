@@ -80,8 +80,7 @@ pub const DEPTH: Layer = Layer {
 };
 
 /// What the rays of a sample (of the camera, behind transparent surfaces, toward lights, off mirrors, through bodies) were
-/// tested against,
-/// each counted on its own way: see [`crate::accel::Tests`].
+/// tested against, each counted on its own way: see [`crate::accel::Tests`].
 pub const COST: Layer = Layer {
     name: "cost",
     channels: &["nodes", "primitives"],

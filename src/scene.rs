@@ -6,11 +6,13 @@ mod layout;
 mod look;
 mod microfacets;
 mod mix;
+mod sharing;
 mod surface;
 mod through;
 
 pub use error::SceneError;
-pub use layout::{InstanceSpace, PlacedInstance, Primitive, Recent};
+pub use layout::{PlacedInstance, Primitive, Recent};
+pub use sharing::InstanceSpace;
 pub use surface::{Met, Place, Surface};
 pub use through::{Filter, Through, Way};
 
@@ -157,7 +159,7 @@ impl Scene {
     ) -> Result<Scene, SceneError> {
         check::check(&description)?;
         let primitive_count = layout::count_primitives(&description)?;
-        let bytes = layout::bytes(&description);
+        let bytes = sharing::bytes(&description);
         if bytes > most_bytes {
             return Err(SceneError::OutOfMemory {
                 needs: bytes,
@@ -170,7 +172,7 @@ impl Scene {
         description.lights.iter_mut().for_each(normalize_direction);
         let first_triangle = (description.spheres.len() + description.planes.len()) as u32;
         let (meshes, instances) =
-            layout::place(description.meshes, description.instances, first_triangle);
+            sharing::place(description.meshes, description.instances, first_triangle);
         check::check_placed(&meshes, &instances)?;
         // Last: a camera may have been framed to what was found wrong above.
         check::check_camera(&description.camera)?;

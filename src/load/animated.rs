@@ -1,6 +1,6 @@
 //! Whether a file has the animation that a user chose.
 
-use super::{AnimationChoice, AnimationFacts, Asset, Options};
+use super::{AnimationChoice, AnimationFacts, Asset, Options, choice};
 use crate::Error;
 
 impl AnimationChoice {
@@ -12,9 +12,8 @@ impl AnimationChoice {
             AnimationChoice::First => (0..count.min(1)).collect(),
             AnimationChoice::All => (0..count).collect(),
             AnimationChoice::Named(wanted) => {
-                let by_name = animations.iter().position(|facts| facts.name == *wanted);
-                let by_index = || wanted.parse().ok().filter(|&index| index < count);
-                by_name.or_else(by_index).into_iter().collect()
+                let found = choice::find("animation", wanted, &names(animations));
+                found.into_iter().collect()
             }
         }
     }
@@ -27,20 +26,19 @@ impl AnimationChoice {
 ///
 /// No model has an animation of that name or index.
 pub(super) fn check(mut asset: Asset, options: &Options) -> Result<Asset, Error> {
-    let choice = &options.animation;
+    let chosen = &options.animation;
     let models = || {
         asset
             .models
             .iter()
             .map(|placed| &placed.model.facts.animations)
     };
-    let is_found = models().any(|animations| !choice.chosen(animations).is_empty());
-    match choice {
+    let is_found = models().any(|animations| !chosen.chosen(animations).is_empty());
+    match chosen {
         AnimationChoice::None => {}
         _ if is_found => {}
         AnimationChoice::Named(wanted) => {
-            let known: Vec<&AnimationFacts> = models().flatten().collect();
-            let problem = format!("there is no animation \"{wanted}\"; {}", there(&known));
+            let problem = choice::no_such("animation", wanted, &names(models().flatten()));
             return Err(Error::malformed(&asset.file, "", problem));
         }
         AnimationChoice::First | AnimationChoice::All => {
@@ -52,19 +50,7 @@ pub(super) fn check(mut asset: Asset, options: &Options) -> Result<Asset, Error>
     Ok(asset)
 }
 
-fn there(known: &[&AnimationFacts]) -> String {
-    const SHOWN: usize = 8;
-    let called = |(index, facts): (usize, &&AnimationFacts)| match facts.name.as_str() {
-        "" => index.to_string(),
-        name => format!("{index} \"{name}\""),
-    };
-    let called: Vec<String> = known.iter().enumerate().map(called).collect();
-    match called.as_slice() {
-        [] => "the file has none".into(),
-        [only] => format!("there is {only}"),
-        [first @ .., last] if first.len() < SHOWN => {
-            format!("there are {} and {last}", first.join(", "))
-        }
-        _ => format!("there are {}, ...", called[..SHOWN].join(", ")),
-    }
+fn names<'a>(animations: impl IntoIterator<Item = &'a AnimationFacts>) -> Vec<&'a str> {
+    let animations = animations.into_iter();
+    animations.map(|facts| facts.name.as_str()).collect()
 }

@@ -11,7 +11,12 @@ pub(super) fn find(kind: &str, wanted: &str, names: &[&str]) -> Result<usize, St
     let by_index = || wanted.parse().ok().filter(|index| *index < names.len());
     by_name
         .or_else(by_index)
-        .ok_or_else(|| format!("there is no {kind} \"{wanted}\"; {}", there(names)))
+        .ok_or_else(|| no_such(kind, wanted, names))
+}
+
+/// One line that says which there are.
+pub(super) fn no_such(kind: &str, wanted: &str, names: &[&str]) -> String {
+    format!("there is no {kind} \"{wanted}\"; {}", there(names))
 }
 
 /// As in `there are 0 "front" and 1`.

@@ -95,37 +95,16 @@ impl Tracer<'_> {
             ..self.paths.paths[path]
         };
         let Rgb { r, g, b } = energy;
-        let colors = [
-            (
-                Rgb {
-                    g: 0.0,
-                    b: 0.0,
-                    ..energy
-                },
-                indices.r,
-            ),
-            (
-                Rgb {
-                    r: 0.0,
-                    b: 0.0,
-                    ..energy
-                },
-                indices.g,
-            ),
-            (
-                Rgb {
-                    r: 0.0,
-                    g: 0.0,
-                    ..energy
-                },
-                indices.b,
-            ),
+        let apart = [
+            (Rgb::new(r, 0.0, 0.0), indices.r),
+            (Rgb::new(0.0, g, 0.0), indices.g),
+            (Rgb::new(0.0, 0.0, b), indices.b),
         ];
-        let alike = indices.r == indices.b;
-        let parts = if alike {
-            &[(Rgb { r, g, b }, indices.g)][..]
+        let together = [(energy, indices.g)];
+        let parts = if indices.r == indices.b {
+            &together[..]
         } else {
-            &colors[..]
+            &apart
         };
         for &(energy, m) in parts {
             if mirror::matters(energy) {

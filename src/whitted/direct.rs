@@ -1,0 +1,149 @@
+//! Direct light: what lamps send to surfaces, with a shadow ray for each.
+
+use super::batch::{Arrivals, Promised, ray_to};
+use super::lanes::{Shone, WIDTH};
+use super::{Sample, Tracer, since};
+use crate::color::Rgb;
+use crate::geometry::Hit;
+use crate::light::{Illumination, Lamp};
+use crate::ray::Ray;
+use crate::scene::Place;
+use crate::shade::{Reflectance, lambert};
+use glam::Vec3;
+use std::time::Instant;
+
+impl Tracer<'_> {
+    /// Adds what one light sends to every surface that it stands before and reaches.
+    pub(super) fn add_light(&mut self, lamp: &Lamp, arrivals: &Arrivals, samples: &mut [Sample]) {
+        match (lamp.position(), lamp.parallel()) {
+            (Some(position), _) => self.promise_from(lamp, position, arrivals),
+            (None, Some(light)) => self.promise_along(&light, arrivals),
+            (None, None) => {}
+        }
+        for (index, through) in &arrivals.from_behind {
+            self.promise_behind(lamp, arrivals, *index, *through);
+        }
+        // Apart: rays that share their origin are searched faster among themselves.
+        self.add_unless_occluded(0, samples);
+        self.add_unless_occluded(1, samples);
+    }
+
+    /// The shadow rays of a light that shines from a point.
+    #[inline(never)]
+    fn promise_from(&mut self, lamp: &Lamp, position: Vec3, arrivals: &Arrivals) {
+        let [from_light, from_surfaces] = &mut self.shadow_rays;
+        let mut shone = Shone::default();
+        for (eight, places) in arrivals.list.chunks(WIDTH).zip(&arrivals.places) {
+            shone.set(places, lamp, position);
+            for (lane, arrival) in eight.iter().enumerate() {
+                let Some(light) = shone.arriving(lane) else {
+                    continue;
+                };
+                let v = -self.paths.rays[arrival.path as usize].direction;
+                let surface = &arrivals.reflectances[arrival.reflectance as usize];
+                let (n, shading) = (places.normal(lane), self.rules.shading);
+                let promised = Promised {
+                    sample: arrival.sample,
+                    light: arrival.weight
+                        * shading.reflected(surface, n, light.to_light, v, light.irradiance),
+                };
+                match shone.ray_from(position, lane) {
+                    Some(ray) => from_light.push(ray, promised),
+                    None => from_surfaces.push(ray_to(&light, &places.get(lane).point), promised),
+                }
+            }
+        }
+    }
+
+    /// The shadow rays of a light whose rays are parallel.
+    #[inline(never)]
+    fn promise_along(&mut self, light: &Illumination, arrivals: &Arrivals) {
+        for (index, arrival) in arrivals.list.iter().enumerate() {
+            let (
+                Place {
+                    point, normal: n, ..
+                },
+                l,
+            ) = (arrivals.place(index), light.to_light);
+            if n.dot(l) > 0.0 && point.normal.dot(l) > 0.0 {
+                let v = -self.paths.rays[arrival.path as usize].direction;
+                let surface = &arrivals.reflectances[arrival.reflectance as usize];
+                let promised = Promised {
+                    sample: arrival.sample,
+                    light: arrival.weight
+                        * self
+                            .rules
+                            .shading
+                            .reflected(surface, n, l, v, light.irradiance),
+                };
+                self.shadow_rays[1].push(ray_to(light, &point), promised);
+            }
+        }
+    }
+
+    /// The shadow ray of a light that stands behind a surface which lets diffuse light `through`.
+    fn promise_behind(&mut self, lamp: &Lamp, arrivals: &Arrivals, index: usize, through: Rgb) {
+        let (arrival, place) = (&arrivals.list[index], arrivals.place(index));
+        let Some(light) = lamp.illuminate(place.point.position) else {
+            return;
+        };
+        let (n, l) = (-place.normal, light.to_light);
+        if n.dot(l) > 0.0 && -place.point.normal.dot(l) > 0.0 {
+            let surface = Reflectance {
+                diffuse: through,
+                ..Reflectance::BLACK
+            };
+            let promised = Promised {
+                sample: arrival.sample,
+                light: arrival.weight * lambert::reflected(&surface, n, l, light.irradiance),
+            };
+            self.shadow_rays[1].push(ray_to(&light, &place.point), promised);
+        }
+    }
+
+    /// Adds what shadow rays promise where nothing stands in their way.
+    #[inline(never)]
+    fn add_unless_occluded(&mut self, kind: usize, samples: &mut [Sample]) {
+        if self.shadow_rays[kind].rays.is_empty() {
+            return;
+        }
+        self.count_shadow_rays(kind);
+        let shadow_rays = &mut self.shadow_rays[kind];
+        let start = self.watched.then(Instant::now);
+        self.accel
+            .occluded_all(&shadow_rays.rays, &mut self.occluded);
+        self.statistics.search += since(start);
+        self.statistics.shadow_rays += shadow_rays.rays.len() as u64;
+        if self.accel.has_transparent() {
+            self.add_through_layers(kind, samples);
+            return;
+        }
+        for (promised, &occluded) in shadow_rays.light.iter().zip(&self.occluded) {
+            if !occluded {
+                samples[promised.sample as usize].color += promised.light;
+            }
+        }
+        shadow_rays.clear();
+    }
+
+    /// Adds what transparent things leave of the light of shadow rays that nothing opaque stops.
+    #[inline(never)]
+    fn add_through_layers(&mut self, kind: usize, samples: &mut [Sample]) {
+        let (accel, watched) = (self.accel, self.watched);
+        let (shadow_rays, layers) = (&mut self.shadow_rays[kind], &mut self.through_layers);
+        let statistics = &mut self.statistics;
+        let search = |rays: &[Ray], hits: &mut Vec<Option<Hit>>| {
+            let start = watched.then(Instant::now);
+            accel.intersect_all(rays, hits);
+            statistics.search += since(start);
+        };
+        let lost = layers.follow(self.scene, accel, search, &shadow_rays.rays, &self.occluded);
+        statistics.lost_in_layers += lost;
+        for (promised, &share) in shadow_rays.light.iter().zip(&layers.shares) {
+            if share != Rgb::BLACK {
+                samples[promised.sample as usize].color += promised.light * share;
+            }
+        }
+        shadow_rays.clear();
+    }
+}
