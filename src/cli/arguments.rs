@@ -70,11 +70,12 @@ Examples:
   luch render helmet.glb -o - | viewer
   luch render helmet.glb -o helmet.png --json > helmet.json
 
-Limits: 4 GiB a file; 268435456 pixels an image; 2147483647 triangles and other primitives, each as often as it is placed;
-4 GiB a picture in memory; of everything else, such as vertices and nodes, what --max-memory holds.
+Limits: 4 GiB a file; 268435456 pixels an image; 2147483647 triangles and other primitives, each as
+often as it is placed; 4 GiB a picture in memory; of everything else, such as vertices and nodes,
+what --max-memory holds.
 
-Environment: LUCH_ISA=scalar|avx2|avx512 chooses the kernels that search [default: the widest that the machine has]; all of
-them give the same picture.
+Environment: LUCH_ISA=scalar|avx2|avx512 chooses the kernels that search [default: the widest that
+the machine has]; all of them give the same picture.
 
 Exit codes: 0 done, 1 usage or scene, 2 output, 130 interrupted.";
 

@@ -69,7 +69,7 @@ fn of_bvh(arguments: &arguments::BvhArguments) -> Result<Task<'_>, Failure> {
         &arguments.model,
         arguments.camera.as_deref(),
         effort.size,
-        &arguments.common.reading,
+        &common.reading,
     )?;
     let all = if common.quick || effort.budget <= Effort::QUICK.budget {
         bvh::Choices::quick()
@@ -107,7 +107,7 @@ fn of_scaling(arguments: &arguments::ScalingArguments) -> Result<Task<'_>, Failu
                 model,
                 arguments.camera.as_deref(),
                 effort.size,
-                &arguments.common.reading,
+                &common.reading,
             )?;
             let resized = subject.resized();
             let shapes = [subject.name.clone()];
@@ -147,7 +147,7 @@ fn of_samples(arguments: &arguments::SamplesArguments) -> Result<Task<'_>, Failu
             input,
             arguments.camera.as_deref(),
             effort.size,
-            &arguments.common.reading,
+            &common.reading,
         )?,
         None => Subject::figure_4(effort.size)?,
     };
@@ -173,7 +173,7 @@ fn of_rays(arguments: &arguments::RaysArguments) -> Result<Task<'_>, Failure> {
         &arguments.model,
         arguments.camera.as_deref(),
         effort.size,
-        &arguments.common.reading,
+        &common.reading,
     )?;
     let plan = Plan {
         cases: rays::cases(&subject.source, &kernels(arguments.kernels.clone())?),
