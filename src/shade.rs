@@ -3,6 +3,7 @@
 pub mod anisotropy;
 pub mod blinn_phong;
 pub mod clearcoat;
+pub mod facets;
 pub mod flat;
 pub mod iridescence;
 pub mod lambert;
