@@ -19,6 +19,7 @@ pub mod specular_glossiness;
 pub use layers::{Coat, Layers};
 
 use crate::color::Rgb;
+use facets::Facets;
 use glam::Vec3;
 
 /// A surface at one point, every texture looked up: what the shading formulas need.
@@ -30,9 +31,19 @@ pub struct Reflectance {
     pub specular: Rgb,
     /// `s`, the exponent of the highlight.
     pub shininess: f32,
+    /// A highlight by its facets instead of `k_s` and `s`, which then count for nothing.
+    pub facets: Option<Facets>,
     /// The share of the mirror ray's light that comes back.
     pub reflectivity: Rgb,
-    /// The share of constant ambient light that comes back; the paper's surfaces have `k_d` here.
+    /// How rough the mirror is that `reflectivity` stands for, 0..1 as glTF has it.
+    pub mirror_roughness: f32,
+    /// The share that comes back of light from everywhere, as the lobe about the mirrored direction gathers it: what
+    /// the mirror ray leaves out.
+    pub gloss: Rgb,
+    /// How rough the surface of that lobe is, 0..1 as glTF has it.
+    pub roughness: f32,
+    /// The share of constant ambient light that comes back, the gloss included but not the mirror; the paper's surfaces
+    /// have `k_d` here.
     pub ambient: Rgb,
     /// Light of the surface's own.
     pub emission: Rgb,
@@ -60,7 +71,11 @@ impl Reflectance {
         diffuse: Rgb::BLACK,
         specular: Rgb::BLACK,
         shininess: 0.0,
+        facets: None,
         reflectivity: Rgb::BLACK,
+        mirror_roughness: 0.0,
+        gloss: Rgb::BLACK,
+        roughness: 0.0,
         ambient: Rgb::BLACK,
         emission: Rgb::BLACK,
         layers: None,
@@ -73,15 +88,19 @@ impl Shading {
     /// `n`, `l`, `v` are unit vectors that point away from the surface; `e` is the light's irradiance.
     #[inline(always)]
     pub fn reflected(self, surface: &Reflectance, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
-        let base = match self {
-            Shading::Flat => Rgb::BLACK,
-            Shading::Lambert => lambert::reflected(surface, n, l, e),
-            Shading::Phong => phong::reflected(surface, n, l, v, e),
-            Shading::BlinnPhong => blinn_phong::reflected(surface, n, l, v, e),
+        let base = match (self, &surface.facets) {
+            (Shading::Flat, _) => Rgb::BLACK,
+            (Shading::Lambert, _) => lambert::reflected(surface, n, l, e),
+            (_, Some(facets)) => {
+                lambert::reflected(surface, n, l, e) + facets::reflected(facets, n, l, v, e)
+            }
+            (Shading::Phong, None) => phong::reflected(surface, n, l, v, e),
+            (Shading::BlinnPhong, None) => blinn_phong::reflected(surface, n, l, v, e),
         };
         match (&surface.layers, self) {
-            (Some(layers), Shading::Phong) => base + layers.phong(n, l, v, e),
-            (Some(layers), Shading::BlinnPhong) => base + layers.blinn_phong(n, l, v, e),
+            (Some(layers), Shading::Phong | Shading::BlinnPhong) => {
+                base + layers.reflected(n, l, v, e)
+            }
             _ => base,
         }
     }
@@ -97,10 +116,8 @@ pub(crate) mod test_surface {
             diffuse: Rgb::grey(0.5),
             specular: Rgb::WHITE,
             shininess,
-            reflectivity: Rgb::BLACK,
             ambient: Rgb::grey(0.5),
-            emission: Rgb::BLACK,
-            layers: None,
+            ..Reflectance::BLACK
         }
     }
 }

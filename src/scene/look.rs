@@ -5,7 +5,7 @@ use super::microfacets::{Facing, Seen};
 use super::mix::Vertex;
 use crate::color::Rgb;
 use crate::material::{Alpha, AlphaChannel, AlphaMode, Material, Model, NormalMap, Textured};
-use crate::shade::Reflectance;
+use crate::shade::{Reflectance, facets};
 use crate::texture::TextureUse;
 use glam::{Vec3, Vec4};
 
@@ -70,25 +70,20 @@ impl Scene {
                     specular: self.color(&phong.specular, vertex),
                     shininess: phong.shininess,
                     reflectivity: phong.reflectivity,
+                    roughness: facets::roughness_of(phong.shininess),
                     ambient: diffuse,
                     emission,
-                    layers: None,
+                    ..Reflectance::BLACK
                 }
             }
             Model::MetallicRoughness(m) => self.metallic_roughness(m, &seen),
             Model::SpecularGlossiness(m) => self.specular_glossiness(m, &seen),
             Model::Unlit { color } => {
                 let color = self.color(color, vertex) * tint;
-                let dark = Rgb::BLACK;
-                let (specular, reflectivity, ambient) = (dark, dark, dark);
                 Reflectance {
                     diffuse: color,
-                    specular,
-                    shininess: 0.0,
-                    reflectivity,
-                    ambient,
                     emission: color,
-                    layers: None,
+                    ..Reflectance::BLACK
                 }
             }
         }
@@ -129,8 +124,9 @@ pub(super) fn plain(material: &Material) -> Option<Reflectance> {
         specular: phong.specular.factor,
         shininess: phong.shininess,
         reflectivity: phong.reflectivity,
+        roughness: facets::roughness_of(phong.shininess),
         ambient: phong.diffuse.factor,
         emission: material.emission.factor,
-        layers: None,
+        ..Reflectance::BLACK
     })
 }

@@ -11,7 +11,7 @@
 //! - **Sides.** A ray carries no list of the bodies it is in: from the front it enters, from the index 1 into that of the
 //!   material; from behind it leaves, back to 1. Glass in water has to be told as such, by an index that is their ratio.
 //! - **Roughness** blurs nothing, since a Whitted renderer has one ray for each direction: the mirror before a rough
-//!   surface fades as anywhere (see `shade::metallic_roughness`), what goes through stays sharp, and so does the mirror
+//!   surface fades as anywhere (see `shade::microfacet`), what goes through stays sharp, and so does the mirror
 //!   within a body, without which its total reflections would be dark.
 
 use super::mix::{Mix, NEUTRAL, Vertex};
@@ -111,13 +111,20 @@ impl Scene {
         let below_coat = coat.map_or(1.0, |coat| 1.0 - coat.mirrored);
         let occlusion = material.occlusion();
         let access = occlusion.map_or(1.0, |occlusion| self.ambient_access(occlusion, vertex));
-        let ambient = reflectance.diffuse * (share * access);
+        // From within a body all that is reflected is in the mirror.
+        let gloss = match way {
+            Way::Out { .. } => Rgb::BLACK,
+            _ => reflectance.gloss,
+        };
+        let lost = reflectance.gloss + gloss * -1.0;
+        let ambient = (reflectance.diffuse * share + lost) * access;
         Some(Through {
             rest: Reflectance {
                 diffuse: reflectance.diffuse * (1.0 - share),
                 // Rounding must not make it less than nothing.
                 ambient: by_channel(reflectance.ambient, ambient, |a, b| (a - b).max(0.0)),
                 reflectivity: Rgb::BLACK,
+                gloss,
                 ..*reflectance
             },
             mirrored,
@@ -126,8 +133,8 @@ impl Scene {
         })
     }
 
-    /// What tints light on its way through. Diffuse light has less, where more is mirrored than glTF's 4 %: what is
-    /// mirrored is taken from what goes through by itself.
+    /// What tints light on its way through. Diffuse light has less: what is mirrored is taken from what goes through by
+    /// itself.
     fn tint(&self, material: &Material, vertex: &Vertex, reflectance: &Reflectance) -> Rgb {
         match &material.model {
             Model::MetallicRoughness(m) => self.body_color(m, vertex),

@@ -20,7 +20,7 @@
 
 mod albedo;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 pub use albedo::albedo;
 
@@ -45,6 +45,13 @@ const LEAST_ROUGHNESS: f32 = 0.1;
 const LEAST_COS: f32 = 1e-3;
 
 impl Facets {
+    /// No light comes back.
+    pub const NONE: Facets = Facets {
+        f0: Rgb::BLACK,
+        f90: 0.0,
+        shininess: 0.0,
+    };
+
     /// A surface of this perceptual roughness, 0..1.
     pub fn new(f0: Rgb, f90: f32, roughness: f32) -> Facets {
         Facets {
@@ -85,14 +92,14 @@ pub fn reflected(facets: &Facets, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
     // 2 (n.h) / (v.h).
     let groove = 4.0 * along / length2;
     let unshadowed = (groove * cos_view.min(cos_light)).min(1.0);
-    let fresnel = fresnel(facets.f0, facets.f90, 0.5 * length2.sqrt());
+    let cos_both = 0.5 * length2.sqrt();
+    let fresnel = facets.f0.map(|f0| schlick(f0, facets.f90, cos_both));
     fresnel * (0.125 * distribution * unshadowed / cos_view) * e
 }
 
 /// `F0 + (F90 - F0) (1 - cos)^5`.
-pub fn fresnel(f0: Rgb, f90: f32, cos: f32) -> Rgb {
-    let edge = fifth_power(1.0 - cos.clamp(0.0, 1.0));
-    f0 * (1.0 - edge) + Rgb::grey(f90 * edge)
+pub fn schlick(f0: f32, f90: f32, cos: f32) -> f32 {
+    f0 + (f90 - f0) * fifth_power(1.0 - cos.clamp(0.0, 1.0))
 }
 
 fn fifth_power(x: f32) -> f32 {

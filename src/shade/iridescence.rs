@@ -1,7 +1,8 @@
 //! Interference in a thin film (KHR_materials_iridescence, "Iridescence Fresnel"): Belcour and Barla 2017, "A Practical
 //! Extension to Microfacet Theory for the Modeling of Varying Iridescence", without polarisation, as the extension has it.
 
-use super::microfacet::{f0_of, schlick};
+use super::facets::schlick;
+use super::microfacet::f0_of;
 use crate::color::Rgb;
 use std::f32::consts::PI;
 
@@ -25,7 +26,7 @@ pub fn fresnel(f0: Rgb, film: ThinFilm, cos_view: f32) -> Rgb {
     }
     let cos2 = (1.0 - sin2).sqrt();
     // Air to film.
-    let r12 = schlick(f0_of(film.ior), 1.0, 0.0, cos1);
+    let r12 = schlick(f0_of(film.ior), 1.0, cos1);
     let t121 = 1.0 - r12;
     // Film to base, whose index is what its F0 says; no base reflects everything, so that none is infinite.
     let base_ior = f0.map(|f0| {
@@ -34,7 +35,7 @@ pub fn fresnel(f0: Rgb, film: ThinFilm, cos_view: f32) -> Rgb {
     });
     let r23 = base_ior.map(|ior| {
         let r = (ior - film.ior) / (ior + film.ior);
-        schlick(r * r, 1.0, 0.0, cos2)
+        schlick(r * r, 1.0, cos2)
     });
     let way = 2.0 * film.ior * film.thickness * cos2;
     // Half a wave is lost where the index rises.

@@ -1,7 +1,8 @@
 //! Highlights over a surface's own: those of a clear coat and of sheen.
 
+use super::Reflectance;
+use super::facets::{self, Facets};
 use super::sheen::{self, Sheen};
-use super::{Reflectance, blinn_phong, phong};
 use crate::color::Rgb;
 use glam::Vec3;
 
@@ -10,10 +11,8 @@ use glam::Vec3;
 pub struct Layers {
     /// Fibres; their colour is less what the coat keeps.
     pub sheen: Sheen,
-    /// `k_s` of the coat.
-    pub coat_specular: f32,
-    /// The exponent of the coat's highlight.
-    pub coat_shininess: f32,
+    /// The coat's highlight.
+    pub coat_facets: Facets,
     /// The coat's mirror, where it faces another way than the surface; zero where the surface's has it in it.
     pub coat: Coat,
 }
@@ -42,8 +41,7 @@ impl Layers {
             color: Rgb::BLACK,
             roughness: 1.0,
         },
-        coat_specular: 0.0,
-        coat_shininess: 0.0,
+        coat_facets: Facets::NONE,
         coat: Coat::ALIKE,
     };
 
@@ -56,25 +54,10 @@ impl Layers {
         self.coat().map_or(of_surface, |coat| coat.normal)
     }
 
-    fn highlight(&self) -> Reflectance {
-        Reflectance {
-            specular: Rgb::grey(self.coat_specular),
-            shininess: self.coat_shininess,
-            ..Reflectance::BLACK
-        }
-    }
-
-    /// What the layers send back of one light, the coat's highlight being Blinn's.
+    /// What the layers send back of one light.
     #[inline(never)]
-    pub(super) fn blinn_phong(&self, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
-        let of_coat = blinn_phong::reflected(&self.highlight(), self.coat_normal(n), l, v, e);
-        of_coat + sheen::reflected(&self.sheen, n, l, v, e)
-    }
-
-    /// The same, the coat's highlight being Phong's.
-    #[inline(never)]
-    pub(super) fn phong(&self, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
-        let of_coat = phong::reflected(&self.highlight(), self.coat_normal(n), l, v, e);
+    pub(super) fn reflected(&self, n: Vec3, l: Vec3, v: Vec3, e: Rgb) -> Rgb {
+        let of_coat = facets::reflected(&self.coat_facets, self.coat_normal(n), l, v, e);
         of_coat + sheen::reflected(&self.sheen, n, l, v, e)
     }
 }
@@ -85,14 +68,16 @@ impl Reflectance {
         Reflectance {
             diffuse: self.diffuse * share,
             specular: self.specular * share,
+            facets: self.facets.map(|facets| facets.dimmed(share)),
             reflectivity: self.reflectivity * share,
+            gloss: self.gloss * share,
             ambient: self.ambient * share,
             layers: self.layers.map(|layers| Layers {
                 sheen: Sheen {
                     color: layers.sheen.color * share,
                     ..layers.sheen
                 },
-                coat_specular: layers.coat_specular * share,
+                coat_facets: layers.coat_facets.dimmed(share),
                 coat: Coat {
                     mirrored: layers.coat.mirrored * share,
                     ..layers.coat

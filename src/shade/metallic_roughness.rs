@@ -4,10 +4,10 @@
 //! | --- | --- | --- |
 //! | `F0` | `mix(dielectric F0, base, metallic)` | glTF 2.0, appendix B.3.5 |
 //! | `F90` | `mix(dielectric F90, 1, metallic)` | KHR_materials_specular |
-//! | diffuse `k_d` | `base (1 - metallic)` | glTF 2.0, appendix B.3.5 |
+//! | `k_d` | `base (1 - metallic)` | glTF 2.0, appendix B.3.5 |
 //!
-//! The dielectric's `F0` is 0.04 and its `F90` 1, or what KHR_materials_ior and _specular say. Of the diffuse light luch
-//! keeps what an `F0` of 0.04 would leave; a greater one takes its share, `k_d (1 - max F0) / (1 - 0.04)`.
+//! The dielectric's `F0` is 0.04 and its `F90` 1, or what KHR_materials_ior and _specular say. What is reflected is taken
+//! from diffuse light by [`microfacet`](super::microfacet).
 
 use super::microfacet::{Parameters, f0_of};
 use crate::color::Rgb;
@@ -49,9 +49,8 @@ pub fn parameters(
     dielectric: Dielectric,
 ) -> Parameters {
     let metallic = metallic.clamp(0.0, 1.0);
-    let left = ((1.0 - dielectric.f0.max_component()) / (1.0 - F0)).min(1.0);
     Parameters {
-        diffuse: base_color * (1.0 - metallic) * left,
+        diffuse: base_color * (1.0 - metallic),
         through: Rgb::BLACK,
         f0: dielectric.f0.mix(base_color, metallic),
         f90: dielectric.f90 + (1.0 - dielectric.f90) * metallic,
@@ -92,14 +91,6 @@ mod tests {
     }
 
     #[test]
-    fn roughness_one_half_has_the_exponent_of_its_alpha() {
-        // alpha = 1/4: 2 * 16 - 2.
-        let surface = reflectance(0.0, 0.5, 1.0);
-        assert_eq!(surface.shininess, 30.0);
-        assert!((surface.specular.r - 0.04 * 32.0 / 8.0).abs() < 1e-6);
-    }
-
-    #[test]
     fn occlusion_keeps_ambient_light_away() {
         let p = Parameters {
             ambient_access: 0.0,
@@ -107,42 +98,6 @@ mod tests {
         };
         let dark = microfacet::reflectance(p, 1.0, Rgb::BLACK);
         assert_eq!(dark.ambient, Rgb::BLACK);
-    }
-
-    /// The formulas as they were before extensions came: the oracle.
-    fn without_extensions(metallic: f32, roughness: f32, cos_view: f32) -> Reflectance {
-        let f0 = Rgb::grey(0.04).mix(ORANGE, metallic);
-        let diffuse = ORANGE * (1.0 - metallic);
-        let alpha = roughness.max(0.1) * roughness.max(0.1);
-        let shininess = 2.0 / (alpha * alpha) - 2.0;
-        let x = 1.0 - cos_view;
-        let x5 = x * x * x * x * x;
-        let fresnel = f0.map(|f0| f0 + ((1.0 - roughness).max(f0) - f0) * x5);
-        let sharp = (1.0 - roughness / 0.6f32).max(0.0);
-        let mirrored = sharp * sharp;
-        Reflectance {
-            diffuse,
-            specular: f0 * ((shininess + 2.0) / 8.0),
-            shininess,
-            reflectivity: fresnel * mirrored,
-            ambient: diffuse + fresnel * (1.0 - mirrored),
-            ..Reflectance::BLACK
-        }
-    }
-
-    #[test]
-    fn a_material_without_extensions_has_the_same_bits_as_ever() {
-        let steps = || (0..=20).map(|step| step as f32 / 20.0);
-        for metallic in steps() {
-            for roughness in steps() {
-                for cos in steps() {
-                    assert_eq!(
-                        reflectance(metallic, roughness, cos),
-                        without_extensions(metallic, roughness, cos)
-                    );
-                }
-            }
-        }
     }
 
     #[test]

@@ -2,26 +2,29 @@
 //!
 //! | quantity | formula | source |
 //! | --- | --- | --- |
-//! | `alpha` | `roughness^2` | glTF 2.0, appendix B.2.3 |
-//! | exponent `s` | `2 / alpha^2 - 2` | Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", sec. 5.2: the Blinn-Phong lobe as wide as Beckmann's of this `alpha` |
-//! | highlight `k_s` | `F0 (s + 2) / 8` | normalised Blinn-Phong `F0 (s + 2) / (8 π)` (Akenine-Möller et al. 2018, "Real-Time Rendering", sec. 9.8), in the paper's units of light, π times less |
-//! | Fresnel `F` | `F0 + (max(F90 (1 - roughness), F0) - F0) (1 - n.v)^5` | Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering"; the lower peak of rough surfaces is Lagarde's (2011) |
-//! | reflectivity | `F m`, `m = max(0, 1 - roughness / 0.6)^2` | ours: a sharp mirror stands for the lobe while it is narrow, and is gone where it is wide |
-//! | ambient | `k_d + F (1 - m)` | ours: the rest of the lobe sees the constant ambient light |
+//! | highlight | `D G F / (4 (n.l) (n.v))` for each lamp | [`facets`](super::facets) |
+//! | reflected `R` | `F0 a + F90 b`: all that the lobe sends back of light from everywhere | the lobe's integral ([`albedo`]) |
+//! | diffuse | `k_d (1 - max R)` | ours: what is reflected is not diffuse, so that no energy is made |
+//! | mirror `m` | 1 up to a roughness of 0.15, smoothly down to 0 at 0.6 | ours: a sharp mirror stands for the lobe while it is narrow, and is gone where it is wide |
+//! | | and 0 where `max R < 0.03` from a roughness of 0.3 on | ours: a mirror that nobody would see costs no ray |
+//! | reflectivity | `R m` | |
+//! | gloss | `R (1 - m)` | ours: the rest of the lobe sees the environment as wide as it is |
+//! | ambient | diffuse + gloss | |
 //!
 //! A thin film replaces `F`, and `F0` in the highlight, by its own at this angle ([`iridescence`]).
 
 use super::Reflectance;
+use super::facets::{Facets, albedo};
 use super::iridescence::{self, ThinFilm};
 use crate::color::Rgb;
 
 /// The parameters at one point, textures looked up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
-    /// `k_d`.
+    /// `k_d`: what would be diffuse if nothing were reflected.
     pub diffuse: Rgb,
-    /// The share of the constant ambient light behind the surface that comes through; lamps there are the tracer's
-    /// affair.
+    /// The share of the constant ambient light behind the surface that comes through, if nothing were reflected; lamps
+    /// there are the tracer's affair.
     pub through: Rgb,
     /// What is reflected head-on.
     pub f0: Rgb,
@@ -35,66 +38,53 @@ pub struct Parameters {
     pub film: Option<ThinFilm>,
 }
 
-/// The least roughness a highlight is reckoned with: a light without extent has none on a perfect mirror.
-const LEAST_HIGHLIGHT_ROUGHNESS: f32 = 0.1;
-/// From this roughness on nothing is mirrored sharply.
+/// Up to this roughness all of the lobe is mirrored sharply, and from `MIRROR_ENDS_AT` on none.
+const MIRROR_FADES_FROM: f32 = 0.15;
 const MIRROR_ENDS_AT: f32 = 0.6;
-
-/// What roughness makes of reflected light.
-pub(super) struct Lobe {
-    /// `s`.
-    pub(super) shininess: f32,
-    /// `k_s` where all light is reflected.
-    pub(super) peak: f32,
-    /// `m`.
-    pub(super) mirrored: f32,
-}
-
-impl Lobe {
-    pub(super) fn new(roughness: f32) -> Lobe {
-        let alpha =
-            roughness.max(LEAST_HIGHLIGHT_ROUGHNESS) * roughness.max(LEAST_HIGHLIGHT_ROUGHNESS);
-        let shininess = 2.0 / (alpha * alpha) - 2.0;
-        let sharp = (1.0 - roughness / MIRROR_ENDS_AT).max(0.0);
-        Lobe {
-            shininess,
-            peak: (shininess + 2.0) / 8.0,
-            mirrored: sharp * sharp,
-        }
-    }
-}
+/// From this roughness on a mirror that is fainter than `FAINT[0]` is worth no ray, and one of `FAINT[1]` is.
+const FAINT_FADES_AT: f32 = 0.3;
+const FAINT: [f32; 2] = [0.03, 0.06];
 
 /// The table in this file's head. `cos_view` is `n . v`, 0..1.
 pub fn reflectance(p: Parameters, cos_view: f32, emission: Rgb) -> Reflectance {
     let roughness = p.roughness.clamp(0.0, 1.0);
-    let lobe = Lobe::new(roughness);
-    let (mut f0, mut diffuse) = (p.f0, p.diffuse);
-    let mut fresnel = f0.map(|f0| schlick(f0, p.f90, roughness, cos_view));
+    let [head_on, edge] = albedo(cos_view, roughness);
+    let mut f0 = p.f0;
+    let mut reflected = f0 * head_on + Rgb::grey(p.f90 * edge);
     if let Some(film) = p.film {
         let tinted = iridescence::fresnel(f0, film, cos_view);
-        // Diffuse light is what is not reflected (KHR_materials_iridescence, `rgb_mix`).
-        let [left, before] = [tinted, f0].map(|f| 1.0 - f.max_component().min(1.0));
-        let dimmed = (left / before.max(1e-3)).min(1.0);
-        diffuse *= 1.0 - film.strength + dimmed * film.strength;
-        fresnel = fresnel.mix(tinted, film.strength);
+        reflected = reflected.mix(tinted * (head_on + edge), film.strength);
         f0 = f0.mix(tinted, film.strength);
     }
+    let greatest = reflected.max_component();
+    let mirrored = mirrored_share(roughness, greatest);
+    let left = (1.0 - greatest).max(0.0);
+    let (diffuse, gloss) = (p.diffuse * left, reflected * (1.0 - mirrored));
     Reflectance {
         diffuse,
-        specular: f0 * lobe.peak,
-        shininess: lobe.shininess,
-        reflectivity: fresnel * lobe.mirrored,
-        ambient: (diffuse + p.through + fresnel * (1.0 - lobe.mirrored)) * p.ambient_access,
+        facets: Some(Facets::new(f0, p.f90, roughness)),
+        reflectivity: reflected * mirrored,
+        mirror_roughness: roughness,
+        gloss,
+        roughness,
+        ambient: (diffuse + p.through * left + gloss) * p.ambient_access,
         emission,
-        layers: None,
+        ..Reflectance::BLACK
     }
 }
 
-/// `F0 + (F90 - F0) (1 - n.v)^5`, where `F90` is lower on rough surfaces.
-pub(super) fn schlick(f0: f32, f90: f32, roughness: f32, cos_view: f32) -> f32 {
-    let x = 1.0 - cos_view.clamp(0.0, 1.0);
-    let x5 = x * x * x * x * x;
-    f0 + ((f90 * (1.0 - roughness)).max(f0) - f0) * x5
+/// `m`: the share that a mirror ray stands for of all that a surface reflects, which is `reflected`.
+pub(super) fn mirrored_share(roughness: f32, reflected: f32) -> f32 {
+    let sharp = 1.0 - smoothstep(MIRROR_FADES_FROM, MIRROR_ENDS_AT, roughness);
+    let rough = smoothstep(MIRROR_FADES_FROM, FAINT_FADES_AT, roughness);
+    let faint = 1.0 - smoothstep(FAINT[0], FAINT[1], reflected);
+    sharp * (1.0 - rough * faint)
+}
+
+/// 0 up to `from`, 1 from `to` on, and without a bend between.
+fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
+    let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
 }
 
 /// What a surface of this index of refraction reflects head-on (KHR_materials_ior); everything if it is infinite.
@@ -110,6 +100,7 @@ pub fn f0_of(ior: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shade::facets;
 
     #[test]
     fn the_indices_of_the_specifications_table_reflect_what_optics_says() {
@@ -125,6 +116,92 @@ mod tests {
         ] {
             assert!((f0_of(ior) * 100.0 - percent).abs() < 0.06, "{ior}");
         }
+    }
+
+    fn surface(diffuse: f32, f0: f32, roughness: f32, cos_view: f32) -> Reflectance {
+        let p = Parameters {
+            diffuse: Rgb::grey(diffuse),
+            through: Rgb::BLACK,
+            f0: Rgb::grey(f0),
+            f90: 1.0,
+            roughness,
+            ambient_access: 1.0,
+            film: None,
+        };
+        reflectance(p, cos_view, Rgb::BLACK)
+    }
+
+    fn steps() -> impl Iterator<Item = f32> {
+        (0..=20u8).map(|step| f32::from(step) / 20.0)
+    }
+
+    #[test]
+    fn mirror_and_gloss_are_all_that_is_reflected_and_the_rest_is_diffuse() {
+        for roughness in steps() {
+            for cos in steps() {
+                for f0 in [0.04, 0.5, 1.0] {
+                    let [a, b] = albedo(cos, roughness);
+                    let found = surface(1.0, f0, roughness, cos);
+                    let reflected = found.reflectivity.g + found.gloss.g;
+                    assert!((reflected - (f0 * a + b)).abs() < 1e-6);
+                    assert!((found.diffuse.g + reflected - 1.0).abs() < 1e-6);
+                    assert!((found.ambient.g - found.diffuse.g - found.gloss.g).abs() < 1e-6);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lamps_everywhere_get_no_more_out_of_a_white_surface_than_they_send() {
+        // The lobe's own integral is tested beside it: here what is diffuse has to leave it its place.
+        for roughness in [0.1, 0.3, 0.5, 0.8, 1.0] {
+            for (cos, f0) in [(1.0, 0.04), (0.5, 0.04), (0.1, 0.04), (0.5, 0.9)] {
+                let white = surface(1.0, f0, roughness, cos);
+                let facets = white.facets.unwrap_or(Facets::NONE);
+                let back = white.diffuse.g + facets::tests::furnace(&facets, f64::from(cos)) as f32;
+                assert!(back > 0.98 && back < 1.02, "{roughness} {cos} {f0}: {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_mirror_fades_without_a_step() {
+        for f0 in [0.02, 0.04, 0.2, 1.0] {
+            let share = |roughness| mirrored_share(roughness, f0);
+            assert_eq!((share(0.0), share(0.15)), (1.0, 1.0));
+            assert_eq!((share(0.6), share(1.0)), (0.0, 0.0));
+            let mut last = 1.0;
+            for step in 0..=1000u16 {
+                let now = share(f32::from(step) / 1000.0);
+                assert!(now <= last && last - now < 0.02, "{f0}: {last} {now}");
+                last = now;
+            }
+        }
+        assert_eq!(mirrored_share(0.3, 0.03), 0.0);
+        assert!(mirrored_share(0.3, 0.06) > 0.7);
+    }
+
+    #[test]
+    fn a_thin_film_tints_mirror_and_highlight() {
+        let film = ThinFilm {
+            strength: 1.0,
+            ior: 1.3,
+            thickness: 400.0,
+        };
+        let p = Parameters {
+            diffuse: Rgb::WHITE,
+            through: Rgb::BLACK,
+            f0: Rgb::grey(0.04),
+            f90: 1.0,
+            roughness: 0.0,
+            ambient_access: 1.0,
+            film: Some(film),
+        };
+        let tinted = iridescence::fresnel(p.f0, film, 0.5);
+        let found = reflectance(p, 0.5, Rgb::BLACK);
+        assert_eq!(found.facets.map(|facets| facets.f0), Some(tinted));
+        assert!((found.reflectivity.r - tinted.r).abs() < 1e-6);
+        assert!((found.diffuse.b - (1.0 - tinted.max_component())).abs() < 1e-6);
     }
 
     #[test]

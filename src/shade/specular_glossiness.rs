@@ -1,5 +1,6 @@
-//! The parameters of KHR_materials_pbrSpecularGlossiness: `F0 = specular`, `k_d = diffuse (1 - max specular)`,
-//! `roughness = 1 - glossiness`.
+//! The parameters of KHR_materials_pbrSpecularGlossiness: `F0 = specular`, `k_d = diffuse`, `roughness = 1 - glossiness`.
+//!
+//! The extension's `diffuse (1 - max specular)` is what [`microfacet`](super::microfacet) makes of it, at any angle.
 
 use super::microfacet::Parameters;
 use crate::color::Rgb;
@@ -7,7 +8,7 @@ use crate::color::Rgb;
 /// The formulas in this file's head.
 pub fn parameters(diffuse: Rgb, specular: Rgb, glossiness: f32) -> Parameters {
     Parameters {
-        diffuse: diffuse * (1.0 - specular.max_component().min(1.0)),
+        diffuse,
         through: Rgb::BLACK,
         f0: specular,
         f90: 1.0,
@@ -36,7 +37,8 @@ mod tests {
 
     #[test]
     fn the_greatest_specular_channel_takes_its_share_of_the_diffuse_light() {
-        let p = parameters(Rgb::new(1.0, 0.5, 0.0), Rgb::new(0.2, 0.75, 0.1), 0.5);
-        assert_eq!(p.diffuse, Rgb::new(0.25, 0.125, 0.0));
+        let p = parameters(Rgb::new(1.0, 0.5, 0.0), Rgb::new(0.2, 0.75, 0.1), 1.0);
+        let surface = reflectance(p, 1.0, Rgb::BLACK);
+        assert_eq!(surface.diffuse, Rgb::new(0.25, 0.125, 0.0));
     }
 }

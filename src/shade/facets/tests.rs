@@ -15,7 +15,7 @@ fn toward(cos: f64, phi: f64) -> Vec3 {
 
 /// What comes back of light of radiance 1 from everywhere: the lobe summed over half vectors, which lie densest about the
 /// normal.
-fn furnace(facets: &Facets, cos_view: f64) -> f64 {
+pub(in crate::shade) fn furnace(facets: &Facets, cos_view: f64) -> f64 {
     const SLOPES: u32 = 128;
     const DIRECTIONS: u32 = 128;
     let v = toward(cos_view, 0.0);
