@@ -38,6 +38,7 @@ pub mod sampling;
 
 // Things and their equations.
 pub mod camera;
+pub mod environment;
 pub mod geometry;
 pub mod light;
 pub mod material;
