@@ -176,6 +176,23 @@ impl Surroundings {
         lights.map_or(&[], Vec::as_slice)
     }
 
+    /// The same with this share of its light.
+    pub fn dimmed(&self, share: f32) -> Surroundings {
+        let dimmed = |light: &DistantLight| DistantLight {
+            irradiance: light.irradiance * share,
+            ..*light
+        };
+        let of_round = |round: &Vec<DistantLight>| round.iter().map(dimmed).collect();
+        let all = self.rounds.iter();
+        Surroundings {
+            rounds: all
+                .map(|rounds| rounds.iter().map(of_round).collect())
+                .collect(),
+            intensity: self.intensity * share,
+            ..self.clone()
+        }
+    }
+
     /// A direction of the world in the picture.
     fn to_picture(&self, d: Vec3) -> Vec3 {
         let (cos, sin) = self.turn;

@@ -29,7 +29,9 @@ pub use model::{
     TextureFacts, Treatment,
 };
 pub use options::{AnimationChoice, Options};
-pub use viewpoint::{CameraChoice, Choices, PlacedCamera, Viewpoint};
+pub use viewpoint::{
+    CameraChoice, Choices, GroundChoice, LightsChoice, PlacedCamera, Surrounding, Viewpoint,
+};
 pub use warnings::{Warning, Warnings};
 
 use crate::Error;

@@ -6,6 +6,7 @@ pub use settings::{Settings, SettingsError};
 
 use crate::accel::Accel;
 use crate::camera::View;
+use crate::environment::MAX_ROUNDS;
 use crate::film::{COST, Combine, Film, Layer};
 use crate::ray::Ray;
 use crate::scene::Scene;
@@ -55,6 +56,7 @@ pub fn render(scene: &Scene, accel: &Accel, settings: &Settings, progress: &Prog
     let rules = Rules {
         shading: settings.shading,
         max_depth: settings.max_depth,
+        rounds: settings.samples().min(MAX_ROUNDS),
     };
     let film = Mutex::new(empty_film(scene, settings));
     let painter = || Painter {
@@ -168,7 +170,8 @@ impl Painter<'_> {
             self.rays.clear();
             self.view
                 .primary_rays(&self.columns, &self.rows, &mut self.rays);
-            self.tracer.trace(self.view, &self.rays, &mut self.samples);
+            self.tracer
+                .trace(self.view, sample, &self.rays, &mut self.samples);
             if sample == 0 {
                 std::mem::swap(&mut self.pixels, &mut self.samples);
             } else {

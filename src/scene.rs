@@ -2,6 +2,7 @@
 
 mod check;
 mod error;
+mod ground;
 mod layout;
 mod look;
 mod microfacets;
@@ -11,6 +12,7 @@ mod surface;
 mod through;
 
 pub use error::SceneError;
+pub use ground::{GROUND, Ground};
 pub use layout::{PlacedInstance, Primitive, Recent};
 pub use sharing::InstanceSpace;
 pub use surface::{Met, Place, Surface};
@@ -18,6 +20,7 @@ pub use through::{Filter, Through, Way};
 
 use crate::camera::Camera;
 use crate::color::Rgb;
+use crate::environment::Surroundings;
 use crate::geometry::{Bounds, Plane, Sphere};
 use crate::light::{Lamp, Light};
 use crate::material::Material;
@@ -25,6 +28,7 @@ use crate::mesh::Mesh;
 use crate::shade::Reflectance;
 use crate::texture::Texture;
 use glam::DAffine3;
+use std::sync::Arc;
 
 /// What a scene is made of, before anything is checked.
 #[derive(Clone, Debug)]
@@ -35,6 +39,10 @@ pub struct SceneDescription {
     pub background: Background,
     /// Constant light from everywhere.
     pub ambient: Rgb,
+    /// Light from everywhere that is not constant, and what mirrors see past everything.
+    pub environment: Option<Arc<Surroundings>>,
+    /// A floor that shows shadows.
+    pub ground: Option<Ground>,
     /// Named by index.
     pub materials: Vec<Material>,
     /// Named by index.
@@ -58,6 +66,8 @@ impl SceneDescription {
             camera,
             background: Background::default(),
             ambient: Rgb::BLACK,
+            environment: None,
+            ground: None,
             materials: Vec::new(),
             textures: Vec::new(),
             lights: Vec::new(),
@@ -96,10 +106,24 @@ pub struct Instance {
 /// What a ray that misses everything sees.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Background {
-    /// Seen by mirror rays always, by camera rays as `shown` says.
+    /// Seen by mirror rays always, unless there is an environment; by camera rays as `shown` says.
     pub color: Rgb,
+    /// On a display, the colour at the top of the picture, where it is not the same all over: `color` is then the one at
+    /// its bottom.
+    pub top: Option<Rgb>,
     /// Which pictures have it behind everything.
     pub shown: Shown,
+}
+
+impl Background {
+    /// The same colour all over.
+    pub const fn plain(color: Rgb, shown: Shown) -> Background {
+        Background {
+            color,
+            top: None,
+            shown,
+        }
+    }
 }
 
 /// Which pictures have the background behind everything.
@@ -113,6 +137,8 @@ pub enum Shown {
     OnDisplay,
     /// None: every picture is transparent there.
     Never,
+    /// All, and it is the environment itself that one sees: alpha is 1.
+    Environment,
 }
 
 /// A world that can be rendered: everything finite, every index in range, every vector that must have a length has it.
@@ -121,6 +147,8 @@ pub struct Scene {
     camera: Camera,
     background: Background,
     ambient: Rgb,
+    environment: Option<Arc<Surroundings>>,
+    ground: Option<Ground>,
     materials: Vec<Material>,
     textures: Vec<Texture>,
     lights: Vec<Light>,
@@ -176,13 +204,17 @@ impl Scene {
         check::check_placed(&meshes, &instances)?;
         // Last: a camera may have been framed to what was found wrong above.
         check::check_camera(&description.camera)?;
-        let plain = description.materials.iter().map(look::plain).collect();
+        let in_environment = description.environment.is_some();
+        let plain = |material| look::plain(material, in_environment);
+        let plain = description.materials.iter().map(plain).collect();
         let has_volumes = description.materials.iter().any(|m| m.volume().is_some());
         let lamps = description.lights.iter().map(Lamp::of).collect();
         Ok(Scene {
             camera: description.camera,
             background: description.background,
             ambient: description.ambient,
+            environment: description.environment,
+            ground: description.ground,
             materials: description.materials,
             textures: description.textures,
             lights: description.lights,
@@ -211,6 +243,16 @@ impl Scene {
     /// Constant light from everywhere.
     pub fn ambient(&self) -> Rgb {
         self.ambient
+    }
+
+    /// Light from everywhere that is not constant.
+    pub fn environment(&self) -> Option<&Surroundings> {
+        self.environment.as_deref()
+    }
+
+    /// The floor that shows shadows.
+    pub fn ground(&self) -> Option<&Ground> {
+        self.ground.as_ref()
     }
 
     /// The materials, by index.

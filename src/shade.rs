@@ -5,6 +5,7 @@ pub mod blinn_phong;
 pub mod clearcoat;
 pub mod facets;
 pub mod flat;
+pub mod gloss;
 pub mod iridescence;
 pub mod lambert;
 mod layers;

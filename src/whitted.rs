@@ -8,6 +8,8 @@
 mod batch;
 mod count;
 mod direct;
+mod environment;
+mod ground;
 mod lanes;
 mod onward;
 mod refract;
@@ -21,9 +23,11 @@ use crate::color::Rgb;
 use crate::film::{FAR_AWAY, Statistics};
 use crate::geometry::Hit;
 use crate::ray::Ray;
-use crate::scene::{Recent, Scene, Shown};
+use crate::scene::{Recent, Scene};
 use crate::shade::{Shading, flat, mirror};
 use batch::{Arrivals, Paths, ShadowRays};
+use environment::Lit;
+use ground::Grounded;
 use std::mem::{swap, take};
 use std::time::{Duration, Instant};
 use transparent::ThroughLayers;
@@ -54,6 +58,8 @@ pub struct Rules {
     pub shading: Shading,
     /// The most mirror bounces.
     pub max_depth: u32,
+    /// Into so many rounds the environment's lights are divided, one for each sample of a pixel, and then again.
+    pub rounds: u32,
 }
 
 /// Follows batches of rays through one scene; keeps its memory from batch to batch.
@@ -73,9 +79,12 @@ pub struct Tracer<'a> {
     further: Paths,
     hits: Vec<Option<Hit>>,
     arrivals: Arrivals,
-    shadow_rays: [ShadowRays; 2],
+    /// From lamps, from surfaces, from the ground: of the last, what is promised to paths.
+    shadow_rays: [ShadowRays; 3],
     occluded: Vec<bool>,
     through_layers: ThroughLayers<'a>,
+    lit: Vec<Lit>,
+    grounded: Vec<Grounded>,
     recent: Recent,
 }
 
@@ -96,12 +105,21 @@ impl<'a> Tracer<'a> {
             shadow_rays: Default::default(),
             occluded: Vec::new(),
             through_layers: ThroughLayers::default(),
+            lit: Vec::new(),
+            grounded: Vec::new(),
             recent: Recent::default(),
         }
     }
 
-    /// The light along each camera ray of `view`, into `samples`, which is cleared first.
-    pub fn trace(&mut self, view: &View, camera_rays: &[Ray], samples: &mut Vec<Sample>) {
+    /// The light along each camera ray of `view`, into `samples`, which is cleared first. The rays are those of sample
+    /// `number` of their pixels.
+    pub fn trace(
+        &mut self,
+        view: &View,
+        number: u32,
+        camera_rays: &[Ray],
+        samples: &mut Vec<Sample>,
+    ) {
         let nothing = Sample {
             color: Rgb::BLACK,
             alpha: 1.0,
@@ -113,6 +131,7 @@ impl<'a> Tracer<'a> {
         self.paths.start(camera_rays);
         while !self.paths.rays.is_empty() {
             self.arrive(samples);
+            self.pass_ground(number, samples);
             self.look();
             self.add_own_light(view, samples);
             let arrivals = take(&mut self.arrivals);
@@ -120,6 +139,7 @@ impl<'a> Tracer<'a> {
                 for lamp in self.scene.lamps() {
                     self.add_light(lamp, &arrivals, samples);
                 }
+                self.add_environment(number, &arrivals, samples);
             }
             for &index in &arrivals.onward {
                 self.reflect(&arrivals, index);
@@ -148,23 +168,20 @@ impl<'a> Tracer<'a> {
         if self.scene.has_volumes() {
             self.attenuate();
         }
-        let background = self.scene.background();
         self.arrivals.clear();
-        let paths = self.paths.rays.iter().zip(&self.paths.paths);
-        for (index, ((ray, path), hit)) in (0..).zip(paths.zip(&self.hits)) {
-            let sample = &mut samples[path.sample as usize];
+        for index in 0..self.paths.rays.len() {
+            let (ray, path) = (self.paths.rays[index], self.paths.paths[index]);
+            let (number, hit) = (index as u32, self.hits[index]);
+            let t_max = hit.map_or(f32::INFINITY, |hit| hit.t);
+            if self.meets_ground(number, &ray, &path, t_max) {
+                continue;
+            }
             match hit {
                 Some(hit) => {
-                    let path = (index, ray, path);
-                    self.arrivals.push(self.scene, path, hit, &mut self.recent);
+                    let path = (number, &ray, &path);
+                    self.arrivals.push(self.scene, path, &hit, &mut self.recent);
                 }
-                // What the camera sees past everything is the film's affair, unless the background is part of the
-                // picture. There is one alpha for all colours: of tinted sheets it has the middle.
-                None if path.direct && background.shown != Shown::Always => {
-                    let Rgb { r, g, b } = path.energy;
-                    sample.alpha -= 0.5 * (r.max(g).max(b) + r.min(g).min(b));
-                }
-                None => sample.color += path.energy * background.color,
+                None => self.see_past(number, path.energy, samples),
             }
         }
         self.arrivals.settle();

@@ -179,10 +179,7 @@ fn two_mirrors(first: f32, second: f32, background: f32) -> SceneDescription {
             sphere(Vec3::new(0.0, 0.0, -11.0), 10.0, 0),
             sphere(Vec3::new(0.0, 0.0, 13.0), 10.0, 1),
         ],
-        background: Background {
-            color: Rgb::grey(background),
-            shown: Shown::Always,
-        },
+        background: Background::plain(Rgb::grey(background), Shown::Always),
         ..SceneDescription::empty(camera_at(
             Vec3::new(0.0, 0.9, 0.0),
             Vec3::new(0.0, 1.1, -1.0),
@@ -293,10 +290,7 @@ fn sheets(distances: &[f32]) -> SceneDescription {
             .iter()
             .map(|z| plane(Vec3::NEG_Z * *z, Vec3::Z, 0))
             .collect(),
-        background: Background {
-            color: Rgb::grey(8.0),
-            shown: Shown::Always,
-        },
+        background: Background::plain(Rgb::grey(8.0), Shown::Always),
         ..SceneDescription::empty(camera_at(Vec3::ZERO, Vec3::NEG_Z))
     }
 }

@@ -172,10 +172,7 @@ fn mirrored(glow: Vec3, base: Option<NormalMap>, coat: Option<NormalMap>) -> [f3
     scene.textures = vec![bent().0];
     scene.lights = Vec::new();
     scene.ambient = Rgb::BLACK;
-    scene.background = Background {
-        color: Rgb::BLACK,
-        shown: Shown::Always,
-    };
+    scene.background = Background::plain(Rgb::BLACK, Shown::Always);
     // Behind the camera too.
     let (center, radius) = (glow * 9.0, 0.1);
     scene.spheres = vec![Object {

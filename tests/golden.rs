@@ -156,10 +156,7 @@ fn a_transparent_sphere_shows_what_is_behind_it_and_casts_a_light_shadow() {
         luch::color::Rgb::new(0.8, 0.2, 0.1),
     ));
     materials[spheres[0].material as usize].alpha = crate::common::scenes::half_transparent().alpha;
-    let background = Background {
-        color: luch::color::Rgb::grey(0.5),
-        shown: Shown::Always,
-    };
+    let background = Background::plain(luch::color::Rgb::grey(0.5), Shown::Always);
     let spheres = vec![spheres[0].clone(), behind];
     let description = SceneDescription {
         spheres,

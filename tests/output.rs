@@ -27,10 +27,7 @@ fn film(width: u32, shown: Shown, pixels: &[[f32; 4]]) -> Film {
             layer(BEAUTY, pixels.as_flattened().to_vec()),
             layer(DEPTH, depth),
         ],
-        background: Background {
-            color: Rgb::new(0.5, 0.25, 1.0),
-            shown,
-        },
+        background: Background::plain(Rgb::new(0.5, 0.25, 1.0), shown),
         complete: true,
         statistics: Statistics::default(),
     }

@@ -163,10 +163,7 @@ fn from_within_the_world_is_seen_up_to_the_critical_angle() {
             plane(Vec3::NEG_Y * 3.0, Vec3::Y, GLOW),
         ];
         scene.materials[1].emission.factor = Rgb::new(1.0, 0.0, 0.0);
-        scene.background = Background {
-            color: Rgb::new(0.0, 0.0, 1.0),
-            shown: Shown::Always,
-        };
+        scene.background = Background::plain(Rgb::new(0.0, 0.0, 1.0), Shown::Always);
         pixel(scene, 1)
     };
     let [red, _, blue, _] = seen(40.0);
@@ -312,10 +309,7 @@ fn what_is_not_let_through_is_diffuse() {
     let mut scene = looking(Vec3::Z, Vec3::NEG_Z, material);
     scene.ambient = Rgb::new(1.0, 0.0, 0.0);
     scene.planes = vec![plane(Vec3::ZERO, Vec3::Z, 0)];
-    scene.background = Background {
-        color: Rgb::new(0.0, 0.0, 1.0),
-        shown: Shown::Always,
-    };
+    scene.background = Background::plain(Rgb::new(0.0, 0.0, 1.0), Shown::Always);
     assert_eq!(pixel(scene, 0), [0.75, 0.0, 0.25, 1.0]);
 }
 
@@ -336,10 +330,7 @@ fn nothing_behind_a_sheet_is_transparent_and_behind_a_body_is_the_background() {
 
 /// Everything that is seen of something in an evenly white world.
 fn furnace(description: SceneDescription) -> Vec<f32> {
-    let background = Background {
-        color: Rgb::WHITE,
-        shown: Shown::Always,
-    };
+    let background = Background::plain(Rgb::WHITE, Shown::Always);
     let film = film(
         SceneDescription {
             background,

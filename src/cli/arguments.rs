@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
 use luch::accel::{Builder, Preset};
 use luch::film::Layers;
+use luch::load::{GroundChoice, LightsChoice};
 use luch::output::{BitDepth, Display, Format};
 use luch::shade::Shading;
 use std::num::NonZeroU8;
@@ -164,9 +165,23 @@ pub(super) struct RenderArguments {
     #[arg(long, value_enum, value_name = "BITS", default_value = "8")]
     pub(super) bit_depth: BitDepthValue,
 
-    /// What lies behind everything: a display colour, or transparent [default: the scene file's; grey in a model's PNG,
-    /// transparent in its EXR]
-    #[arg(long, value_name = "#RRGGBB|transparent")]
+    /// Whose lights shine on a model: the file's, those of luch (the environment), or both in full [default: the file's,
+    /// if it has any, and a quarter of the environment]
+    #[arg(long, value_enum, value_name = "WHOSE")]
+    pub(super) lights: Option<LightsValue>,
+
+    /// A floor under the model that shows its shadow; in an EXR and in a transparent PNG the shadow is in alpha. auto: where
+    /// luch frames the model, from outside and from above
+    #[arg(long, value_enum, value_name = "WHEN", default_value = "auto")]
+    pub(super) ground: GroundValue,
+
+    /// The share of light that this floor mirrors, 0 to 1
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, default_value = "0", value_parser = values::share)]
+    pub(super) ground_reflection: f32,
+
+    /// What lies behind everything: a display colour, transparent, or the environment [default: the scene file's; a light
+    /// grey in a model's PNG, transparent in its EXR]
+    #[arg(long, value_name = "#RRGGBB|transparent|environment")]
     pub(super) background: Option<BackgroundValue>,
 
     /// How much time the search tree's build takes for how good a tree
@@ -284,6 +299,40 @@ impl From<ShadingValue> for Shading {
             ShadingValue::Lambert => Shading::Lambert,
             ShadingValue::Phong => Shading::Phong,
             ShadingValue::BlinnPhong => Shading::BlinnPhong,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum LightsValue {
+    File,
+    Default,
+    Both,
+}
+
+impl From<LightsValue> for LightsChoice {
+    fn from(value: LightsValue) -> LightsChoice {
+        match value {
+            LightsValue::File => LightsChoice::File,
+            LightsValue::Default => LightsChoice::Default,
+            LightsValue::Both => LightsChoice::Both,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum GroundValue {
+    Auto,
+    On,
+    Off,
+}
+
+impl From<GroundValue> for GroundChoice {
+    fn from(value: GroundValue) -> GroundChoice {
+        match value {
+            GroundValue::Auto => GroundChoice::Auto,
+            GroundValue::On => GroundChoice::On,
+            GroundValue::Off => GroundChoice::Off,
         }
     }
 }

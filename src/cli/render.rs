@@ -11,11 +11,11 @@ use glam::Vec3;
 use luch::Error;
 use luch::accel::{self, Accel, Isa, Layout};
 use luch::camera::Camera;
-use luch::load::{self, Asset, CameraChoice, Choices, Viewpoint};
+use luch::load::{self, Asset, CameraChoice, Choices, Surrounding, Viewpoint};
 use luch::output::{self, Display};
 use luch::render::{Progress, Settings, render};
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The paper's figure 4, for who gives no file.
 pub(super) const FIGURE_4: &str = include_str!("../../assets/scenes/figure-4.toml");
@@ -42,10 +42,16 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let outputs = Outputs::claim(arguments, name, &Interrupt::watch())?;
 
     let start = Instant::now();
-    let mut asset = open(arguments)?;
+    // Nothing of the one is needed for the other.
+    let (asset, (surrounding, environment)) =
+        rayon::join(|| open(arguments), || surrounding(arguments));
+    let mut asset = asset?;
     outputs.spare(&asset.files)?;
     let settings = settings(arguments, &asset)?;
-    let viewpoint = viewpoint(arguments, &settings)?;
+    let viewpoint = Viewpoint {
+        environment: surrounding,
+        ..viewpoint(arguments, &settings)?
+    };
     let (scene, choices) = asset
         .take_scene(arguments.animation.time(), &viewpoint)
         .map_err(Failure::usage_or_scene)?;
@@ -69,10 +75,16 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let start = Instant::now();
     let options = output_options(arguments, &asset, &choices);
     let written = outputs.write(&film, &options)?;
+    let render = film.statistics.time.as_secs_f64();
+    let rays = render * film.statistics.search_share();
     let seconds = Seconds {
         load: load.as_secs_f64(),
+        textures: asset.budget.decoding().as_secs_f64(),
+        environment: environment.as_secs_f64(),
         build: accel.statistics().build_time.as_secs_f64(),
-        render: film.statistics.time.as_secs_f64(),
+        render,
+        rays,
+        shade: render - rays,
         write: start.elapsed().as_secs_f64(),
     };
     let done = Done {
@@ -100,6 +112,13 @@ pub(super) fn open(arguments: &RenderArguments) -> Result<Asset, Failure> {
         None => load::scene_file::parse(FIGURE_4, Path::new(FIGURE_4_NAME), &options),
     }
     .map_err(Failure::usage_or_scene)
+}
+
+/// The environment that is asked for, made ready, and how long that took.
+fn surrounding(arguments: &RenderArguments) -> (Surrounding, Duration) {
+    let start = Instant::now();
+    let _ = arguments;
+    (Surrounding::OfFile, start.elapsed())
 }
 
 /// The arguments, where they are silent the file, where that is the defaults.
@@ -165,6 +184,10 @@ fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Result<Viewpoi
             .background
             .map(|BackgroundValue(background)| background),
         exposure: arguments.exposure,
+        lights: arguments.lights.map(Into::into),
+        ground: arguments.ground.into(),
+        ground_reflectivity: arguments.ground_reflection,
+        ..Viewpoint::of_file(1.0)
     })
 }
 

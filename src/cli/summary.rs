@@ -108,9 +108,17 @@ struct Rays {
 /// What each phase took.
 #[derive(Clone, Copy, Serialize)]
 pub(super) struct Seconds {
+    /// All of it, textures included.
     pub(super) load: f64,
+    /// What decoding images took of that.
+    pub(super) textures: f64,
+    /// What preparing the environment took, beside loading.
+    pub(super) environment: f64,
     pub(super) build: f64,
     pub(super) render: f64,
+    /// What searching for what rays meet took of that, and all the rest of it: estimates from one tile of so many.
+    pub(super) rays: f64,
+    pub(super) shade: f64,
     pub(super) write: f64,
 }
 
@@ -172,8 +180,12 @@ impl Summary {
     fn in_words(&self) -> Vec<String> {
         let Seconds {
             load,
+            textures,
+            environment,
             build,
             render,
+            rays,
+            shade,
             write,
         } = self.seconds;
         let mut lines: Vec<String> = self.asks.in_words().into_iter().collect();
@@ -181,7 +193,8 @@ impl Summary {
             format!("{}, {}", self.scene.in_words(), self.bvh.in_words()),
             self.rays.in_words(),
             format!(
-                "load {load:.2} s, build {build:.2} s, render {render:.2} s, write {write:.2} s"
+                "load {load:.2} s (textures {textures:.2} s; beside it environment {environment:.2} s), build {build:.2} s, \
+                 render {render:.2} s (rays {rays:.2} s, shade {shade:.2} s), write {write:.2} s"
             ),
         ]);
         lines.extend(self.outputs.iter().map(|output| format!("wrote {output}")));

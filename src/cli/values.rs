@@ -38,22 +38,21 @@ impl FromStr for BackgroundValue {
 
     fn from_str(text: &str) -> Result<BackgroundValue, String> {
         if text == "transparent" {
-            return Ok(BackgroundValue(Background {
-                color: Rgb::BLACK,
-                shown: Shown::Never,
-            }));
+            return Ok(BackgroundValue(Background::plain(Rgb::BLACK, Shown::Never)));
+        }
+        if text == "environment" {
+            let shown = Shown::Environment;
+            return Ok(BackgroundValue(Background::plain(Rgb::BLACK, shown)));
         }
         let digits = text.strip_prefix('#').unwrap_or(text);
         let is_color = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
         let bits = u32::from_str_radix(digits, 16).ok().filter(|_| is_color);
-        let bits =
-            bits.ok_or("expected a colour of six hex digits, as in '#808080', or transparent")?;
+        let bits = bits.ok_or(
+            "expected a colour of six hex digits, as in '#808080', transparent or environment",
+        )?;
         let channel = |shift: u32| srgb_to_linear((bits >> shift & 255) as f32 / 255.0);
         let color = Rgb::new(channel(16), channel(8), channel(0));
-        Ok(BackgroundValue(Background {
-            color,
-            shown: Shown::Always,
-        }))
+        Ok(BackgroundValue(Background::plain(color, Shown::Always)))
     }
 }
 
@@ -150,6 +149,14 @@ pub(super) fn field_of_view(text: &str) -> Result<f64, String> {
     angle.ok_or_else(|| "expected an angle above 0 and below 180 degrees".into())
 }
 
+/// A share of something.
+pub(super) fn share(text: &str) -> Result<f32, String> {
+    let share = text.parse().ok();
+    share
+        .filter(|share| (0.0..=1.0).contains(share))
+        .ok_or_else(|| "expected a share from 0 to 1".into())
+}
+
 /// An exposure: two to this power is a number.
 pub(super) fn stops(text: &str) -> Result<f32, String> {
     let stops = text
@@ -207,10 +214,7 @@ mod tests {
         let expected = Rgb::new(1.0, srgb_to_linear(128.0 / 255.0), 0.0);
         assert_eq!(
             parsed,
-            Ok(BackgroundValue(Background {
-                color: expected,
-                shown: Shown::Always
-            }))
+            Ok(BackgroundValue(Background::plain(expected, Shown::Always)))
         );
         for wrong in ["#fff", "#gggggg", "red", "#+12345", ""] {
             assert!(wrong.parse::<BackgroundValue>().is_err(), "{wrong}");

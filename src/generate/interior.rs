@@ -57,10 +57,7 @@ pub fn interior(decoration: Decoration) -> SceneDescription {
         range: None,
     };
     SceneDescription {
-        background: Background {
-            color: Rgb::grey(0.6),
-            shown: Shown::Always,
-        },
+        background: Background::plain(Rgb::grey(0.6), Shown::Always),
         ambient: Rgb::grey(0.1),
         lights: vec![
             light(lamp - Vec3::Y * 0.02, 1.5),

@@ -1,11 +1,12 @@
 //! What a file holds, before a choice of camera and time makes a scene of it.
 
 use super::pose::{Pose, PosedMeshes};
-use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
+use super::viewpoint::{self, Choices, PlacedCamera, Surrounding, Viewpoint};
 use super::{Budget, Model, Warnings};
 use crate::Error;
 use crate::camera::Camera;
 use crate::color::Rgb;
+use crate::environment::{self, Environment, Surroundings};
 use crate::error::OutOfMemory;
 use crate::geometry::{Plane, Sphere};
 use crate::light::Light;
@@ -15,6 +16,10 @@ use crate::scene::{Instance, Object, Scene, SceneDescription};
 use crate::shade::Shading;
 use glam::{DAffine3, Vec3};
 use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Into so many lights an environment is cut.
+const LIGHTS: u32 = 64;
 
 /// Everything a file holds.
 #[derive(Clone, Debug)]
@@ -157,8 +162,18 @@ impl Asset {
         } = described;
         let looked_at = self.budget.check(viewpoint::bytes_of_faces(&scene));
         looked_at.map_err(|problem| problem.of(&self.file, "the scene"))?;
-        scene.camera = viewpoint::camera(self, &cameras, viewpoint, &scene, &mut choices)?;
-        viewpoint::light(self, viewpoint, &mut scene, &mut choices);
+        let framed = viewpoint::camera(self, &cameras, viewpoint, &scene, &mut choices)?;
+        scene.camera = framed.camera;
+        let environment = self.environment(viewpoint);
+        viewpoint::light(
+            self,
+            viewpoint,
+            environment,
+            &framed,
+            &mut scene,
+            &mut choices,
+        );
+        scene.ground = viewpoint::ground(self, viewpoint, &framed);
         scene.background = viewpoint::background(self, viewpoint, &mut choices);
         let in_file = |problem| Error::Scene {
             file: self.file.clone(),
@@ -166,6 +181,21 @@ impl Asset {
         };
         let scene = Scene::new_within(scene, self.budget.left()).map_err(in_file)?;
         Ok((scene, choices))
+    }
+
+    /// The environment that the viewpoint, the file or the default gives.
+    fn environment(&self, viewpoint: &Viewpoint) -> Option<Arc<Surroundings>> {
+        match &viewpoint.environment {
+            Surrounding::Given(environment) => Some(environment.clone()),
+            Surrounding::None => None,
+            Surrounding::OfFile if self.is_scene_file => None,
+            Surrounding::OfFile => Some(Arc::new(Surroundings::new(&Environment {
+                radiance: Arc::new(environment::studio()),
+                rotation: 0.0,
+                intensity: 1.0,
+                lights: LIGHTS,
+            }))),
+        }
     }
 
     /// The cameras of its models as they stand at the beginning, in the order in which a user may ask for them by index.

@@ -1,4 +1,4 @@
-//! The memory that reading a file may take, checked before it is taken.
+//! The memory that reading a file may take, checked before it is taken; and the time that its images took.
 
 use super::{Model, Options, memory};
 use crate::Error;
@@ -7,12 +7,15 @@ use crate::mesh::Mesh;
 use crate::texture::Pixels;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::time::{Duration, Instant};
 
 /// How much memory a file and all that it names may take, and how much of it is taken. Clones share it.
 #[derive(Clone, Debug)]
 pub struct Budget {
     limit: u64,
     spent: Arc<AtomicU64>,
+    /// In nanoseconds.
+    decoding: Arc<AtomicU64>,
 }
 
 impl Budget {
@@ -20,7 +23,8 @@ impl Budget {
     pub(super) fn of(options: &Options) -> Budget {
         Budget {
             limit: options.max_memory.unwrap_or_else(memory::usual_limit),
-            spent: Arc::new(AtomicU64::new(0)),
+            spent: Arc::default(),
+            decoding: Arc::default(),
         }
     }
 
@@ -60,6 +64,20 @@ impl Budget {
         let model = read()?;
         self.settle(before, bytes_of_model(&model));
         Ok(model)
+    }
+
+    /// How long images were decoded, by the clock on the wall.
+    pub fn decoding(&self) -> Duration {
+        Duration::from_nanos(self.decoding.load(Relaxed))
+    }
+
+    /// Adds to that what `decode` takes.
+    pub(super) fn decode<T>(&self, decode: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let decoded = decode();
+        let nanos = start.elapsed().as_nanos() as u64;
+        self.decoding.fetch_add(nanos, Relaxed);
+        decoded
     }
 
     /// What is not taken, in bytes.

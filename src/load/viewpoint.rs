@@ -2,18 +2,23 @@
 
 mod cameras;
 mod faces;
+mod ground;
 mod lights;
 
 pub use cameras::PlacedCamera;
 pub(super) use cameras::{camera, cameras};
 pub(super) use faces::bytes_of_faces;
 use faces::faces;
+pub(super) use ground::ground;
 pub(super) use lights::{carried, light};
 
 use super::Asset;
 use crate::camera::Camera;
 use crate::color::Rgb;
+use crate::environment::Surroundings;
+use crate::geometry::Bounds;
 use crate::scene::{Background, Shown};
+use std::sync::Arc;
 
 /// How an asset is to be looked at.
 #[derive(Clone, Debug)]
@@ -28,6 +33,14 @@ pub struct Viewpoint {
     pub background: Option<Background>,
     /// Stops by which a display will change the picture; what suits the file's lights where it is `None`.
     pub exposure: Option<f32>,
+    /// What lights it beside its own lights.
+    pub environment: Surrounding,
+    /// Whose lights shine; where it is `None` both, the environment being a fill beside lights of the file's own.
+    pub lights: Option<LightsChoice>,
+    /// Whether a model stands on a floor that shows its shadow.
+    pub ground: GroundChoice,
+    /// The share of light that this floor mirrors, 0..1.
+    pub ground_reflectivity: f32,
 }
 
 impl Viewpoint {
@@ -39,8 +52,62 @@ impl Viewpoint {
             fov_y: None,
             background: None,
             exposure: None,
+            environment: Surrounding::OfFile,
+            lights: None,
+            ground: GroundChoice::Auto,
+            ground_reflectivity: 0.0,
         }
     }
+}
+
+/// The environment of an asset.
+#[derive(Clone, Debug, Default)]
+pub enum Surrounding {
+    /// What the file says; a model has a studio about it, a scene file that says nothing has none.
+    #[default]
+    OfFile,
+    /// This one.
+    Given(Arc<Surroundings>),
+    /// None.
+    None,
+}
+
+/// Whose lights shine on a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LightsChoice {
+    /// The file's alone, and no environment.
+    File,
+    /// Those that luch gives to models without lights.
+    Default,
+    /// Both, in full.
+    Both,
+}
+
+/// Whether a model stands on a floor that shows its shadow.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GroundChoice {
+    /// Where luch frames it from above and from outside.
+    #[default]
+    Auto,
+    /// Yes.
+    On,
+    /// No.
+    Off,
+}
+
+/// A camera, and what is known of the place that it looks at.
+#[derive(Clone, Debug)]
+pub(in crate::load) struct Framed {
+    /// The camera itself.
+    pub(in crate::load) camera: Camera,
+    /// Whether luch chose it.
+    pub(in crate::load) is_chosen: bool,
+    /// The box around what it was fitted to, or around everything.
+    pub(in crate::load) bounds: Bounds,
+    /// Whether it stands in a room.
+    pub(in crate::load) is_interior: bool,
+    /// How far from the camera there is nothing, at least.
+    pub(in crate::load) head_room: f64,
 }
 
 /// From where an asset is to be looked at.
@@ -64,8 +131,9 @@ pub struct Choices {
     pub exposure: f32,
 }
 
-/// The grey behind models on a display, linear.
-const MODEL_BACKGROUND: Rgb = Rgb::grey(0.2);
+/// What lies behind models on a display, in sRGB .87 at the bottom and .70 at the top: dark things stand out from it, and
+/// white ones, and shadows.
+const MODEL_BACKGROUND: [Rgb; 2] = [Rgb::grey(0.73), Rgb::grey(0.45)];
 
 /// The background that the user, the file or the default gives.
 pub(super) fn background(
@@ -75,40 +143,34 @@ pub(super) fn background(
 ) -> Background {
     match (viewpoint.background, asset.background) {
         // Mirrors go on to see what they would have seen.
-        (
-            Some(Background {
-                shown: Shown::Never,
-                ..
-            }),
-            color,
-        ) => Background {
-            color: color.unwrap_or(default_background(asset, choices.exposure)),
+        (Some(asked), color) if asked.shown == Shown::Never => Background {
             shown: Shown::Never,
+            ..color.map_or(default_background(asset, choices.exposure), |color| {
+                Background::plain(color, Shown::Never)
+            })
         },
         (Some(asked), _) => asked,
-        (None, Some(color)) => Background {
-            color,
-            shown: Shown::Always,
-        },
+        (None, Some(color)) => Background::plain(color, Shown::Always),
         (None, None) => {
             if !asset.is_scene_file {
                 choices
                     .lines
-                    .push("background: neutral grey (an EXR is transparent there)".into());
+                    .push("background: light grey (an EXR is transparent there)".into());
             }
-            Background {
-                color: default_background(asset, choices.exposure),
-                shown: Shown::OnDisplay,
-            }
+            default_background(asset, choices.exposure)
         }
     }
 }
 
-/// Black behind what a person composed; behind models a grey that the exposure does not change.
-fn default_background(asset: &Asset, exposure: f32) -> Rgb {
+/// Black behind what a person composed; behind models greys that the exposure does not change.
+fn default_background(asset: &Asset, exposure: f32) -> Background {
     if asset.is_scene_file {
-        Rgb::BLACK
-    } else {
-        MODEL_BACKGROUND * libm::exp2f(-exposure)
+        return Background::default();
+    }
+    let [bottom, top] = MODEL_BACKGROUND.map(|grey| grey * libm::exp2f(-exposure));
+    Background {
+        color: bottom,
+        top: Some(top),
+        shown: Shown::OnDisplay,
     }
 }

@@ -5,7 +5,7 @@ use super::transfer::{srgb_code_8, srgb_code_16};
 use super::{BitDepth, Options};
 use crate::color::Rgb;
 use crate::film::{BEAUTY, Film};
-use crate::scene::{Background, Shown};
+use crate::scene::Shown;
 use std::io::{self, Write};
 
 /// Writes the beauty: with straight alpha where the background is never shown, else without alpha and with the
@@ -21,7 +21,7 @@ fn encoded(film: &Film, options: &Options) -> Result<Vec<u8>, png::EncodingError
     let mut encoder = png::Encoder::new(&mut bytes, film.width, film.height);
     encoder.set_color(match film.background.shown {
         Shown::Never => png::ColorType::Rgba,
-        Shown::Always | Shown::OnDisplay => png::ColorType::Rgb,
+        Shown::Always | Shown::OnDisplay | Shown::Environment => png::ColorType::Rgb,
     });
     encoder.set_depth(match options.bit_depth {
         BitDepth::Eight => png::BitDepth::Eight,
@@ -61,8 +61,13 @@ fn line(film: &Film, options: &Options, y: usize) -> Vec<u8> {
     let beauty = film.layer(BEAUTY.channels);
     let pixels = beauty.map_or(&[][..], |beauty| row(film, beauty, y));
     let mut bytes = Vec::with_capacity(pixels.len() * 2);
+    let share = (y as f32 + 0.5) / film.height as f32;
+    let background = film.background;
+    let behind = background
+        .top
+        .map_or(background.color, |top| top.mix(background.color, share));
     for &pixel in pixels.as_chunks::<4>().0 {
-        let (light, alpha) = on_display(pixel, film.background);
+        let (light, alpha) = on_display(pixel, background.shown, behind);
         let Rgb { r, g, b } = options.display.apply(light * exposure);
         let alpha = (film.background.shown == Shown::Never).then_some(alpha);
         match options.bit_depth {
@@ -80,12 +85,12 @@ fn line(film: &Film, options: &Options, y: usize) -> Vec<u8> {
     bytes
 }
 
-/// The light of a pixel with what lies behind it, and how much of the pixel is covered, 0..1.
-fn on_display([r, g, b, alpha]: [f32; 4], background: Background) -> (Rgb, f32) {
+/// The light of a pixel before what lies behind it, and how much of the pixel is covered, 0..1.
+fn on_display([r, g, b, alpha]: [f32; 4], shown: Shown, behind: Rgb) -> (Rgb, f32) {
     let light = Rgb::new(r, g, b);
-    match background.shown {
-        Shown::Always => (light, 1.0),
-        Shown::OnDisplay => (light + background.color * (1.0 - alpha), 1.0),
+    match shown {
+        Shown::Always | Shown::Environment => (light, 1.0),
+        Shown::OnDisplay => (light + behind * (1.0 - alpha), 1.0),
         // PNG's alpha is straight, and a display transform must see the light of the surface, not its share.
         Shown::Never if alpha > 0.0 => (light.map(|channel| channel / alpha), alpha.min(1.0)),
         Shown::Never => (Rgb::BLACK, 0.0),

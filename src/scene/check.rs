@@ -4,16 +4,22 @@ mod fields;
 mod finish;
 mod things;
 
-use super::{InstanceSpace, PlacedInstance, SceneDescription, SceneError};
+use super::{GROUND, Ground, InstanceSpace, PlacedInstance, SceneDescription, SceneError};
 use crate::material::Model;
 use crate::mesh::Mesh;
-use fields::{above_zero, check_color, direction, finite, index, named};
+use fields::{above_zero, check_color, direction, finite, in_range, index, named};
 pub(super) use things::check_camera;
 use things::{check_light, check_material, check_texture};
 
 /// The first thing that is wrong with a description.
 pub(super) fn check(scene: &SceneDescription) -> Result<(), SceneError> {
     check_color(|| "background".into(), "color", scene.background.color)?;
+    if let Some(top) = scene.background.top {
+        check_color(|| "background".into(), "top", top)?;
+    }
+    if let Some(ground) = &scene.ground {
+        check_ground(ground)?;
+    }
     check_color(|| "ambient".into(), "color", scene.ambient)?;
     for texture in &scene.textures {
         check_texture(texture)?;
@@ -55,6 +61,21 @@ pub(super) fn check(scene: &SceneDescription) -> Result<(), SceneError> {
         }
     }
     Ok(())
+}
+
+fn check_ground(ground: &Ground) -> Result<(), SceneError> {
+    let what = || GROUND.to_owned();
+    finite(what, "center", ground.center.to_array())?;
+    above_zero(what, "radius", ground.radius)?;
+    let reflectivity = ground.reflectivity;
+    let fits = (0.0..=1.0).contains(&reflectivity);
+    in_range(
+        what,
+        "reflectivity",
+        reflectivity,
+        fits,
+        "a share from 0 to 1",
+    )
 }
 
 /// The farthest from the origin that a mesh may reach: squares of larger numbers, and their products with a picture's

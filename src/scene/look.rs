@@ -5,7 +5,7 @@ use super::microfacets::{Facing, Seen};
 use super::mix::Vertex;
 use crate::color::Rgb;
 use crate::material::{Alpha, AlphaChannel, AlphaMode, Material, Model, NormalMap, Textured};
-use crate::shade::{Reflectance, facets};
+use crate::shade::{Reflectance, facets, gloss};
 use crate::texture::TextureUse;
 use glam::{Vec3, Vec4};
 
@@ -65,13 +65,19 @@ impl Scene {
         match &material.model {
             Model::Phong(phong) => {
                 let diffuse = self.color(&phong.diffuse, vertex) * tint;
+                let (specular, shininess) = (self.color(&phong.specular, vertex), phong.shininess);
+                let gloss = match self.environment {
+                    Some(_) => gloss::of_phong(specular, shininess, cos_view),
+                    None => Rgb::BLACK,
+                };
                 Reflectance {
                     diffuse,
-                    specular: self.color(&phong.specular, vertex),
-                    shininess: phong.shininess,
+                    specular,
+                    shininess,
                     reflectivity: phong.reflectivity,
-                    roughness: facets::roughness_of(phong.shininess),
-                    ambient: diffuse,
+                    gloss,
+                    roughness: facets::roughness_of(shininess),
+                    ambient: diffuse * (1.0 - gloss.max_component()) + gloss,
                     emission,
                     ..Reflectance::BLACK
                 }
@@ -112,13 +118,17 @@ impl Scene {
     }
 }
 
-/// How a material answers light wherever it is seen, from whatever side; `None` where that depends on the place.
-pub(super) fn plain(material: &Material) -> Option<Reflectance> {
+/// How a material answers light wherever it is seen, from whatever side; `None` where that depends on the place, as gloss
+/// in an environment does.
+pub(super) fn plain(material: &Material, in_environment: bool) -> Option<Reflectance> {
     let Model::Phong(phong) = &material.model else {
         return None;
     };
-    let same =
-        material.double_sided && material.is_opaque() && material.textures().next().is_none();
+    let glossy = in_environment && phong.specular.factor != Rgb::BLACK;
+    let same = material.double_sided
+        && material.is_opaque()
+        && !glossy
+        && material.textures().next().is_none();
     same.then_some(Reflectance {
         diffuse: phong.diffuse.factor,
         specular: phong.specular.factor,

@@ -117,7 +117,7 @@ impl Scene {
             _ => reflectance.gloss,
         };
         let lost = reflectance.gloss + gloss * -1.0;
-        let ambient = (reflectance.diffuse * share + lost) * access;
+        let ambient = reflectance.diffuse * (share * access) + lost;
         Some(Through {
             rest: Reflectance {
                 diffuse: reflectance.diffuse * (1.0 - share),

@@ -39,7 +39,7 @@ pub fn over(
     let below = base.dimmed(1.0 - reflected);
     let layers = below.layers.unwrap_or(Layers::NONE);
     let mirrored = reflected * mirrored_share(roughness, reflected);
-    let rest = Rgb::grey(reflected - mirrored);
+    let rest = Rgb::grey((reflected - mirrored) * ambient_access);
     let (alike, apart) = match coat.normal {
         Some(normal) => (0.0, Coat { normal, mirrored }),
         None => (mirrored, Coat::ALIKE),
@@ -60,7 +60,7 @@ pub fn over(
         mirror_roughness,
         gloss,
         roughness: gloss_roughness,
-        ambient: below.ambient + rest * ambient_access,
+        ambient: below.ambient + rest,
         emission: base.emission * (1.0 - reflected),
         layers: Some(Layers {
             coat_facets: Facets::new(Rgb::grey(coat.weight * F0), coat.weight, roughness),

@@ -8,7 +8,7 @@
 //! | mirror `m` | 1 up to a roughness of 0.15, smoothly down to 0 at 0.6 | ours: a sharp mirror stands for the lobe while it is narrow, and is gone where it is wide |
 //! | | and 0 where `max R < 0.03` from a roughness of 0.3 on | ours: a mirror that nobody would see costs no ray |
 //! | reflectivity | `R m` | |
-//! | gloss | `R (1 - m)` | ours: the rest of the lobe sees the environment as wide as it is |
+//! | gloss | `R (1 - m)`, as much of it as arrives | ours: the rest of the lobe sees the environment as wide as it is |
 //! | ambient | diffuse + gloss | |
 //!
 //! A thin film replaces `F`, and `F0` in the highlight, by its own at this angle ([`iridescence`]).
@@ -59,7 +59,8 @@ pub fn reflectance(p: Parameters, cos_view: f32, emission: Rgb) -> Reflectance {
     let greatest = reflected.max_component();
     let mirrored = mirrored_share(roughness, greatest);
     let left = (1.0 - greatest).max(0.0);
-    let (diffuse, gloss) = (p.diffuse * left, reflected * (1.0 - mirrored));
+    let diffuse = p.diffuse * left;
+    let gloss = reflected * ((1.0 - mirrored) * p.ambient_access);
     Reflectance {
         diffuse,
         facets: Some(Facets::new(f0, p.f90, roughness)),
@@ -67,7 +68,7 @@ pub fn reflectance(p: Parameters, cos_view: f32, emission: Rgb) -> Reflectance {
         mirror_roughness: roughness,
         gloss,
         roughness,
-        ambient: (diffuse + p.through * left + gloss) * p.ambient_access,
+        ambient: (diffuse + p.through * left) * p.ambient_access + gloss,
         emission,
         ..Reflectance::BLACK
     }

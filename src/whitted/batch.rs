@@ -22,6 +22,8 @@ pub(super) struct Path {
     pub(super) direct: bool,
     /// The material of the body that it travels in, or [`NO_BODY`].
     pub(super) body: u32,
+    /// That of the roughest mirror on its way: what lies past everything is seen through a lobe of this width.
+    pub(super) roughness: f32,
     /// The share of its light that reaches the camera.
     pub(super) energy: Rgb,
 }
@@ -47,6 +49,7 @@ impl Paths {
             layers: 0,
             direct: true,
             body: NO_BODY,
+            roughness: 0.0,
             energy: Rgb::WHITE,
         };
         self.paths.extend((0..camera_rays.len() as u32).map(path));
@@ -241,6 +244,13 @@ pub(super) fn ray_to(light: &Illumination, point: &SurfacePoint) -> Ray {
     )
 }
 
+/// The shadow rays that begin at a lamp.
+pub(super) const FROM_LAMPS: usize = 0;
+/// Those that begin at surfaces.
+pub(super) const FROM_SURFACES: usize = 1;
+/// Those that begin at the ground: what they decide about belongs to paths, not yet to samples.
+pub(super) const FROM_GROUND: usize = 2;
+
 /// Shadow rays, and what each decides about.
 #[derive(Debug, Default)]
 pub(super) struct ShadowRays {
@@ -248,7 +258,7 @@ pub(super) struct ShadowRays {
     pub(super) light: Vec<Promised>,
 }
 
-/// What a sample gets if nothing stands in the way of a shadow ray.
+/// What a sample (or, from the ground, a path) gets if nothing stands in the way of a shadow ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Promised {
     pub(super) sample: u32,

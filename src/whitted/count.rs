@@ -2,6 +2,7 @@
 //! one, so that who does not want to know pays nothing.
 
 use super::Tracer;
+use super::batch::FROM_GROUND;
 use super::transparent::ThroughLayers;
 use crate::accel::Tests;
 use crate::geometry::Hit;
@@ -46,7 +47,11 @@ impl Tracer<'_> {
         let shadow_rays = &self.shadow_rays[kind];
         let mut layers = ThroughLayers::default();
         for (ray, promised) in shadow_rays.rays.iter().zip(&shadow_rays.light) {
-            let Some(count) = counts.get_mut(promised.sample as usize) else {
+            let sample = match kind {
+                FROM_GROUND => self.paths.paths[promised.sample as usize].sample,
+                _ => promised.sample,
+            };
+            let Some(count) = counts.get_mut(sample as usize) else {
                 continue;
             };
             let (occluded, tests) = accel.occluded_counted(ray);

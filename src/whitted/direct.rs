@@ -1,6 +1,6 @@
 //! Direct light: what lamps send to surfaces, with a shadow ray for each.
 
-use super::batch::{Arrivals, Promised, ray_to};
+use super::batch::{Arrivals, FROM_GROUND, FROM_LAMPS, FROM_SURFACES, Promised, ray_to};
 use super::lanes::{Shone, WIDTH};
 use super::{Sample, Tracer, since};
 use crate::color::Rgb;
@@ -24,14 +24,14 @@ impl Tracer<'_> {
             self.promise_behind(lamp, arrivals, *index, *through);
         }
         // Apart: rays that share their origin are searched faster among themselves.
-        self.add_unless_occluded(0, samples);
-        self.add_unless_occluded(1, samples);
+        self.add_unless_occluded(FROM_LAMPS, samples);
+        self.add_unless_occluded(FROM_SURFACES, samples);
     }
 
     /// The shadow rays of a light that shines from a point.
     #[inline(never)]
     fn promise_from(&mut self, lamp: &Lamp, position: Vec3, arrivals: &Arrivals) {
-        let [from_light, from_surfaces] = &mut self.shadow_rays;
+        let [from_light, from_surfaces, _] = &mut self.shadow_rays;
         let mut shone = Shone::default();
         for (eight, places) in arrivals.list.chunks(WIDTH).zip(&arrivals.places) {
             shone.set(places, lamp, position);
@@ -76,7 +76,7 @@ impl Tracer<'_> {
                             .shading
                             .reflected(surface, n, l, v, light.irradiance),
                 };
-                self.shadow_rays[1].push(ray_to(light, &point), promised);
+                self.shadow_rays[FROM_SURFACES].push(ray_to(light, &point), promised);
             }
         }
     }
@@ -97,13 +97,13 @@ impl Tracer<'_> {
                 sample: arrival.sample,
                 light: arrival.weight * lambert::reflected(&surface, n, l, light.irradiance),
             };
-            self.shadow_rays[1].push(ray_to(&light, &place.point), promised);
+            self.shadow_rays[FROM_SURFACES].push(ray_to(&light, &place.point), promised);
         }
     }
 
     /// Adds what shadow rays promise where nothing stands in their way.
     #[inline(never)]
-    fn add_unless_occluded(&mut self, kind: usize, samples: &mut [Sample]) {
+    pub(super) fn add_unless_occluded(&mut self, kind: usize, samples: &mut [Sample]) {
         if self.shadow_rays[kind].rays.is_empty() {
             return;
         }
@@ -118,12 +118,24 @@ impl Tracer<'_> {
             self.add_through_layers(kind, samples);
             return;
         }
-        for (promised, &occluded) in shadow_rays.light.iter().zip(&self.occluded) {
+        let promises = std::mem::take(shadow_rays);
+        for (promised, &occluded) in promises.light.iter().zip(&self.occluded) {
             if !occluded {
-                samples[promised.sample as usize].color += promised.light;
+                self.keep(kind, promised, promised.light, samples);
             }
         }
-        shadow_rays.clear();
+        self.shadow_rays[kind] = promises;
+        self.shadow_rays[kind].clear();
+    }
+
+    /// Gives what was promised: light to a sample, or sight of what lies behind the ground to a path.
+    #[inline(always)]
+    fn keep(&self, kind: usize, promised: &Promised, light: Rgb, samples: &mut [Sample]) {
+        if kind == FROM_GROUND {
+            self.see_past(promised.sample, light, samples);
+        } else {
+            samples[promised.sample as usize].color += light;
+        }
     }
 
     /// Adds what transparent things leave of the light of shadow rays that nothing opaque stops.
@@ -139,11 +151,13 @@ impl Tracer<'_> {
         };
         let lost = layers.follow(self.scene, accel, search, &shadow_rays.rays, &self.occluded);
         statistics.lost_in_layers += lost;
-        for (promised, &share) in shadow_rays.light.iter().zip(&layers.shares) {
+        let promises = std::mem::take(&mut self.shadow_rays[kind]);
+        for (promised, &share) in promises.light.iter().zip(&self.through_layers.shares) {
             if share != Rgb::BLACK {
-                samples[promised.sample as usize].color += promised.light * share;
+                self.keep(kind, promised, promised.light * share, samples);
             }
         }
-        shadow_rays.clear();
+        self.shadow_rays[kind] = promises;
+        self.shadow_rays[kind].clear();
     }
 }

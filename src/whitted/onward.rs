@@ -32,15 +32,19 @@ impl Tracer<'_> {
         normal: Vec3,
         energy: Rgb,
     ) {
-        let path = self.paths.paths[arrivals.list[index].path as usize];
+        let arrival = &arrivals.list[index];
+        let path = self.paths.paths[arrival.path as usize];
         let most = self.rules.max_depth.min(u16::MAX.into());
         if !mirror::matters(energy) || u32::from(path.bounces) >= most {
             return;
         }
+        let surface = &arrivals.reflectances[arrival.reflectance as usize];
+        let roughness = surface.mirror_roughness;
         let path = Path {
             energy,
             bounces: path.bounces + 1,
             direct: false,
+            roughness: path.roughness.max(roughness),
             ..path
         };
         let ray = self.mirror_ray(arrivals, index, normal);

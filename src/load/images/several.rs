@@ -53,9 +53,11 @@ pub(in crate::load) fn decode_all<K: Ord + Send>(
     let small = ready.partition_point(|(_, e)| e.header.bytes_to_decode() > part);
     let rest = ready.split_off(small);
     let decode = |(key, encoded): (K, Encoded)| (key, decode(&encoded.name, &encoded.bytes));
-    decoded.extend(ready.into_iter().map(decode));
-    // One thread takes the next when it is done with one: what is greatest is never last.
-    decoded.par_extend(rest.into_iter().par_bridge().map(decode));
+    budget.decode(|| {
+        decoded.extend(ready.into_iter().map(decode));
+        // One thread takes the next when it is done with one: what is greatest is never last.
+        decoded.par_extend(rest.into_iter().par_bridge().map(decode));
+    });
     decoded.sort_by(|(one, _), (other, _)| one.cmp(other));
     decoded
 }

@@ -1,10 +1,11 @@
 //! The camera that an asset is seen with.
 
 use super::faces;
-use super::{CameraChoice, Choices, Viewpoint};
+use super::{CameraChoice, Choices, Framed, Viewpoint};
 use crate::Error;
 use crate::camera::{Camera, Clip, Fov, Projection};
 use crate::framing;
+use crate::geometry::Bounds;
 use crate::load::pose::Pose;
 use crate::load::{Asset, CameraSource, PlacedModel, choice};
 use crate::scene::SceneDescription;
@@ -17,14 +18,22 @@ pub(in crate::load) fn camera(
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
-) -> Result<Camera, Error> {
-    let camera = chosen_camera(asset, cameras, viewpoint, scene, choices)?;
+) -> Result<Framed, Error> {
+    let (camera, is_chosen) = chosen_camera(asset, cameras, viewpoint, scene, choices)?;
     let asked = viewpoint
         .fov_y
         .map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
-    Ok(Camera {
+    let camera = Camera {
         projection: asked.unwrap_or(camera.projection),
         ..camera
+    };
+    let points = faces(scene).flat_map(|face| face.triangle.0);
+    Ok(Framed {
+        camera,
+        is_chosen,
+        bounds: Bounds::around(points),
+        is_interior: false,
+        head_room: 1.0,
     })
 }
 
@@ -34,27 +43,27 @@ fn chosen_camera(
     viewpoint: &Viewpoint,
     scene: &SceneDescription,
     choices: &mut Choices,
-) -> Result<Camera, Error> {
+) -> Result<(Camera, bool), Error> {
     let of_file = |name: &str| {
         camera_of_model(cameras, name).map_err(|problem| Error::malformed(&asset.file, "", problem))
     };
     match (&viewpoint.camera, &asset.camera) {
-        (CameraChoice::Given(camera), _) => Ok(*camera),
-        (CameraChoice::Named(name), _) => of_file(name),
-        (CameraChoice::OfFile, Some(CameraSource::Given(camera))) => Ok(*camera),
-        (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => of_file(name),
+        (CameraChoice::Given(camera), _) => Ok((*camera, false)),
+        (CameraChoice::Named(name), _) => Ok((of_file(name)?, false)),
+        (CameraChoice::OfFile, Some(CameraSource::Given(camera))) => Ok((*camera, false)),
+        (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => Ok((of_file(name)?, false)),
         (CameraChoice::OfFile, None) => {
             let first = cameras.first();
-            Ok(first.map(|placed| placed.camera).unwrap_or_else(|| {
-                choices.lines.push(
-                    "camera: none in the file; a three-quarter view, fitted to the model".into(),
-                );
-                framing::frame(
-                    faces(scene),
-                    viewpoint.aspect,
-                    viewpoint.fov_y.unwrap_or(framing::FOV_Y),
-                )
-            }))
+            Ok(first
+                .map(|placed| (placed.camera, false))
+                .unwrap_or_else(|| {
+                    choices.lines.push(
+                        "camera: none in the file; a three-quarter view, fitted to the model"
+                            .into(),
+                    );
+                    let fov_y = viewpoint.fov_y.unwrap_or(framing::FOV_Y);
+                    (framing::frame(faces(scene), viewpoint.aspect, fov_y), true)
+                }))
         }
     }
 }

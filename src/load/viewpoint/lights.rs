@@ -1,35 +1,62 @@
-//! Lights for a model that has none, and exposure for one that has its own.
+//! Light for a model: its own lights, an environment, or both; and the exposure that suits them.
 
-use super::{Choices, Viewpoint, faces};
-use crate::camera::Camera;
+use super::{Choices, Framed, LightsChoice, Viewpoint, faces};
 use crate::color::Rgb;
+use crate::environment::Surroundings;
 use crate::light::{Falloff, Light, LightKind};
 use crate::load::{Asset, exposure};
 use crate::scene::SceneDescription;
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DVec3};
+use std::sync::Arc;
 
-/// Constant light for models without lights.
-const MODEL_AMBIENT: Rgb = Rgb::grey(0.35);
-/// Adds lights to a model without any; finds the exposure for one with its own.
+/// What is left of the environment beside lights of the file's own: enough that metal mirrors something and no shadow is
+/// black, too little to wash them out.
+const FILL: f32 = 0.25;
+/// Constant light in a room, into which hardly any comes from outside.
+const INDOORS_AMBIENT: Rgb = Rgb::grey(0.35);
+/// How bright the lamp of a room without lights is, where it falls straight.
+const LAMP: f32 = 0.7;
+
+/// Lights a scene: with the file's lights, with `environment`, or with both, and finds the exposure.
 pub(in crate::load) fn light(
     asset: &Asset,
     viewpoint: &Viewpoint,
+    environment: Option<Arc<Surroundings>>,
+    framed: &Framed,
     scene: &mut SceneDescription,
     choices: &mut Choices,
 ) {
     scene.ambient = asset.ambient.unwrap_or(Rgb::BLACK);
     choices.exposure = viewpoint.exposure.unwrap_or(0.0);
+    let of_file = scene.lights.len();
+    let lights = viewpoint.lights.unwrap_or(LightsChoice::Both);
+    if lights == LightsChoice::Default {
+        scene.lights.clear();
+    }
+    if lights != LightsChoice::File {
+        scene.environment = environment;
+    }
     if asset.is_scene_file {
         return;
     }
     if scene.lights.is_empty() {
-        choices.lines.push(
-            "light: none in the file; a key and a fill from the viewer's upper left, soft ambient"
-                .into(),
-        );
-        scene.lights = viewer_lights(&scene.camera);
-        scene.ambient = MODEL_AMBIENT;
-    } else if viewpoint.exposure.is_none()
+        let name = match (&scene.environment, framed.is_interior) {
+            (_, true) => {
+                scene.lights.push(lamp(framed));
+                scene.ambient = INDOORS_AMBIENT;
+                "a lamp, since the camera is in a room"
+            }
+            (Some(_), false) => "the environment",
+            (None, false) => "nothing",
+        };
+        let reason = match of_file {
+            0 => "none in the file",
+            _ => "those of the file are out",
+        };
+        choices.lines.push(format!("light: {reason}; {name}"));
+        return;
+    }
+    if viewpoint.exposure.is_none()
         && let Some(stops) = exposure::stops(faces(scene), &scene.lights, scene.camera.position)
     {
         choices.exposure = stops;
@@ -37,27 +64,41 @@ pub(in crate::load) fn light(
             "exposure: {stops:+.1} stops, from the file's lights"
         ));
     }
+    let count = match of_file {
+        1 => "the one light".to_owned(),
+        more => format!("the {more} lights"),
+    };
+    let beside = match &mut scene.environment {
+        Some(environment) if viewpoint.lights.is_none() => {
+            let as_seen = FILL * libm::exp2f(-choices.exposure);
+            *environment = Arc::new(environment.dimmed(as_seen));
+            ", and a quarter of the environment beside (--lights file|default|both)"
+        }
+        Some(environment) => {
+            *environment = Arc::new(environment.dimmed(libm::exp2f(-choices.exposure)));
+            ", and the environment"
+        }
+        None => "",
+    };
+    choices
+        .lines
+        .push(format!("light: {count} of the file{beside}"));
 }
 
-/// A key light from the viewer's upper left and a fill from nearer the viewer, whose shadows hide behind things.
-fn viewer_lights(camera: &Camera) -> Vec<Light> {
-    let [u, v, w] = camera.basis();
-    let light = |name: &str, toward: DVec3, intensity: f32| {
-        let direction: Vec3 = (-toward.normalize()).as_vec3();
-        let kind = LightKind::Directional { direction };
-        Light {
-            name: name.into(),
-            kind,
-            color: Rgb::WHITE,
-            intensity,
-            falloff: Falloff::None,
-            range: None,
-        }
-    };
-    vec![
-        light("key", v * 1.1 - u * 0.8 - w * 0.9, 0.6),
-        light("fill", v * 0.25 - u * 0.15 - w, 0.2),
-    ]
+/// A lamp over the shoulder of who stands in a room.
+fn lamp(framed: &Framed) -> Light {
+    let [u, v, _] = framed.camera.basis();
+    let aside = (v * 0.4 - u * 0.25) * framed.head_room;
+    Light {
+        name: "lamp".into(),
+        kind: LightKind::Point {
+            position: (framed.camera.position + aside).as_vec3(),
+        },
+        color: Rgb::WHITE,
+        intensity: LAMP,
+        falloff: Falloff::None,
+        range: None,
+    }
 }
 
 /// A light in another space: its directions keep their meaning, its intensity does not grow with the scale.

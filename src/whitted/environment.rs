@@ -1,0 +1,160 @@
+//! Environment light: what surfaces send back of light from everywhere, as far as nothing stands in its way.
+//!
+//! How much light there is without shadows is known exactly: the irradiance of a matt surface, the environment prefiltered
+//! to the lobe of a glossy one. The environment's lights only say which share of it arrives: that of those which are seen,
+//! weighted with irradiance, over that of all (a ratio estimator: Heitz, Hill and McGuire 2018, "Combining Analytic Direct
+//! Illumination and Stochastic Shadows"). So nothing is grainy and nothing has a seam where no shadow is, however few
+//! lights there are.
+
+use super::batch::{Arrivals, FROM_SURFACES, Promised};
+use super::{Sample, Tracer};
+use crate::color::Rgb;
+use crate::environment::{DistantLight, Surroundings};
+use crate::geometry::SurfacePoint;
+use crate::ray::Ray;
+use crate::shade::{Reflectance, Shading, mirror};
+use glam::Vec3;
+
+/// Of surfaces that are seen in mirrors or through glass, one light of so many is asked.
+const INDIRECT_STRIDE: u32 = 2;
+
+/// A surface, ready to be lit by many lights that are infinitely far.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lit {
+    sample: u32,
+    /// Of its round's lights, one of so many is asked.
+    stride: u32,
+    /// Where its shadow rays begin: off the surface, on the viewer's side.
+    origin: Vec3,
+    /// The surface's own.
+    true_normal: Vec3,
+    /// The one that shading sees.
+    normal: Vec3,
+    /// What it would send back of all the environment's light, over what arrives from those lights.
+    answer: Rgb,
+}
+
+impl Tracer<'_> {
+    /// Adds what the environment sends to every surface. Sample number `number` of a pixel asks the lights of its round.
+    #[inline(never)]
+    pub(super) fn add_environment(
+        &mut self,
+        number: u32,
+        arrivals: &Arrivals,
+        samples: &mut [Sample],
+    ) {
+        let Some(environment) = self.scene.environment() else {
+            return;
+        };
+        let lights = environment.lights(number, self.rules.rounds);
+        self.prepare(environment, lights, arrivals, samples);
+        for (number, light) in (0..).zip(lights) {
+            for lit in &self.lit {
+                let l = light.to_light;
+                if number % lit.stride == 0
+                    && lit.normal.dot(l) > 0.0
+                    && lit.true_normal.dot(l) > 0.0
+                {
+                    let promised = Promised {
+                        sample: lit.sample,
+                        light: lit.answer * before(light, lit.normal),
+                    };
+                    let ray = Ray::new(lit.origin, l, f32::MIN_POSITIVE, f32::INFINITY);
+                    self.shadow_rays[FROM_SURFACES].push(ray, promised);
+                }
+            }
+            self.add_unless_occluded(FROM_SURFACES, samples);
+        }
+    }
+
+    /// Finds what every surface would send back without shadows.
+    #[inline(never)]
+    fn prepare(
+        &mut self,
+        environment: &Surroundings,
+        lights: &[DistantLight],
+        arrivals: &Arrivals,
+        samples: &mut [Sample],
+    ) {
+        self.lit.clear();
+        for (index, arrival) in arrivals.list.iter().enumerate() {
+            let place = arrivals.place(index);
+            let (path, normal) = (arrival.path as usize, place.normal);
+            if normal == Vec3::ZERO {
+                continue; // Light does not change it.
+            }
+            let surface = &arrivals.reflectances[arrival.reflectance as usize];
+            let d = self.paths.rays[path].direction;
+            let whole = unshadowed(self.rules.shading, environment, surface, normal, d);
+            let whole = arrival.weight * whole;
+            let stride = if self.paths.paths[path].direct {
+                1
+            } else {
+                INDIRECT_STRIDE
+            };
+            let asked = lights.iter().step_by(stride as usize);
+            let arriving = asked.fold(Rgb::BLACK, |sum, light| sum + before(light, normal));
+            // Where none of the lights shines, there is only what lies between them.
+            samples[arrival.sample as usize].color += where_zero(arriving, whole);
+            self.lit.push(Lit {
+                sample: arrival.sample,
+                stride,
+                origin: off(&place.point),
+                true_normal: place.point.normal,
+                normal,
+                answer: over(whole, arriving),
+            });
+        }
+    }
+}
+
+/// What a surface sends back to a viewer along `d` if nothing is in shadow.
+fn unshadowed(
+    shading: Shading,
+    environment: &Surroundings,
+    surface: &Reflectance,
+    n: Vec3,
+    d: Vec3,
+) -> Rgb {
+    let irradiance = environment.irradiance(n);
+    if shading == Shading::Lambert {
+        return surface.diffuse * irradiance;
+    }
+    let matt = (surface.ambient + surface.gloss * -1.0).map(|channel| channel.max(0.0));
+    if surface.gloss == Rgb::BLACK {
+        return matt * irradiance;
+    }
+    let r = mirror::direction(d, n);
+    matt * irradiance + surface.gloss * environment.radiance(r, surface.roughness)
+}
+
+/// What a light sends to a surface of this normal; nothing from behind.
+pub(super) fn before(light: &DistantLight, n: Vec3) -> Rgb {
+    light.irradiance * n.dot(light.to_light).max(0.0)
+}
+
+/// Where rays begin that leave a surface on the side of its normal.
+pub(super) fn off(point: &SurfacePoint) -> Vec3 {
+    let SurfacePoint {
+        position,
+        normal,
+        error,
+    } = *point;
+    Ray::leaving(position, normal, error, normal, f32::INFINITY).origin
+}
+
+/// Channel by channel `a / b`, zero where there is no `b`.
+pub(super) fn over(a: Rgb, b: Rgb) -> Rgb {
+    let ratio = |a: f32, b: f32| if b > 0.0 { a / b } else { 0.0 };
+    Rgb::new(ratio(a.r, b.r), ratio(a.g, b.g), ratio(a.b, b.b))
+}
+
+/// The channels of `light` in which `sum` is nothing.
+fn where_zero(sum: Rgb, light: Rgb) -> Rgb {
+    let kept = |sum: f32, light: f32| if sum > 0.0 { 0.0 } else { light };
+    Rgb::new(
+        kept(sum.r, light.r),
+        kept(sum.g, light.g),
+        kept(sum.b, light.b),
+    )
+}
