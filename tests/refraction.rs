@@ -15,6 +15,7 @@ use luch::material::{Finish, Material, MetallicRoughness, Model, Textured, Trans
 use luch::render::{Progress, Settings, render};
 use luch::scene::{Background, Object, Scene, SceneDescription, Shown};
 use luch::shade::Shading;
+use luch::shade::facets::albedo;
 
 /// Behind what is looked through, so that a picture tells it from everything else.
 const GLOW: u32 = 1;
@@ -216,6 +217,24 @@ fn metallic_roughness_has_the_same_fresnel_where_it_is_smooth() {
         scene.planes[1].shape.point = Vec3::Z * 9.0;
         assert_close(pixel(scene, 1)[0], reflected);
     }
+}
+
+#[test]
+fn frosted_glass_is_glossy_from_without_alone() {
+    let mut frosted = physical(Rgb::WHITE, 0.0);
+    if let Model::MetallicRoughness(m) = &mut frosted.model {
+        m.roughness = 1.0;
+    }
+    let seen_along = |along: Vec3| {
+        let mut scene = looking(along * -2.0, along, frosted.clone());
+        scene.ambient = Rgb::WHITE;
+        scene.planes = vec![plane(Vec3::ZERO, Vec3::Z, 0)];
+        pixel(scene, 1)[0]
+    };
+    let [head_on, edge] = albedo(1.0, 1.0);
+    assert_close(seen_along(Vec3::NEG_Z), f64::from(0.04 * head_on + edge));
+    // Within, all that is reflected is in the mirror, before which is nothing here.
+    assert_close(seen_along(Vec3::Z), 0.0);
 }
 
 /// Glass as glTF has it, seen from the front alone.

@@ -82,7 +82,6 @@ impl Reflectance {
                     mirrored: layers.coat.mirrored * share,
                     ..layers.coat
                 },
-                ..layers
             }),
             ..*self
         }

@@ -9,7 +9,7 @@
 //! | | and 0 where `max R < 0.03` from a roughness of 0.3 on | ours: a mirror that nobody would see costs no ray |
 //! | reflectivity | `R m` | |
 //! | gloss | `R (1 - m)`, as much of it as arrives | ours: the rest of the lobe sees the environment as wide as it is |
-//! | ambient | diffuse + gloss | |
+//! | ambient | diffuse + gloss + what comes through | where occlusion lets light arrive |
 //!
 //! A thin film replaces `F`, and `F0` in the highlight, by its own at this angle ([`iridescence`]).
 

@@ -137,6 +137,8 @@ fn leaning(texel: [u8; 4], uvs: [[f32; 2]; 4], node: Value) -> [f32; 2] {
     file.json["materials"] = json!([{
         "pbrMetallicRoughness": {"metallicFactor": 0},
         "normalTexture": {"index": 0},
+        // Matt, so that it shows cosines alone.
+        "extensions": {"KHR_materials_specular": {"specularFactor": 0}},
     }]);
     for (field, value) in node.as_object().expect("fields") {
         file.json["nodes"][0][field] = value.clone();

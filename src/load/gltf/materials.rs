@@ -1,18 +1,18 @@
 //! Materials: metallic-roughness with its five textures, or what extensions have instead (glTF 2.0, section 3.9).
 //!
-//! What extensions ask, and what luch does. `F` is the Fresnel term at the angle of the viewer, `m` the share of it that a
-//! sharp mirror stands for ([`microfacet`](crate::shade::microfacet)); the rest of it sees the constant ambient light.
+//! What extensions ask, and what luch does. `R` is what a surface reflects toward the viewer, all light together, of which
+//! a mirror ray stands for a part and the rest sees ambient light ([`microfacet`](crate::shade::microfacet)).
 //!
 //! | extension | asks | luch does |
 //! | --- | --- | --- |
 //! | KHR_materials_emissive_strength | emission above 1 | that |
 //! | KHR_materials_unlit | a colour that light does not change | that |
-//! | KHR_materials_ior | `F0 = ((n - 1) / (n + 1))^2` for what is not metal; `n = 0` is infinite | that; what is mirrored above 4 % is taken from diffuse light, and all that is mirrored from what goes through; rays bend by it |
+//! | KHR_materials_ior | `F0 = ((n - 1) / (n + 1))^2` for what is not metal; `n = 0` is infinite | that; what is reflected is taken from diffuse light and from what goes through; rays bend by it |
 //! | KHR_materials_specular | a factor for `F0` and `F90` and a colour for `F0` of what is not metal | that |
 //! | KHR_materials_transmission | light goes through, spread by roughness, tinted by the base colour | a ray goes on, sharp however rough the surface is |
 //! | KHR_materials_volume | bodies bend light and swallow it on its way | that where `thicknessFactor` is above 0; rays measure the way, so that the texture of thickness is not read |
 //! | KHR_materials_dispersion | colours bend unlike | three rays, for red, green and blue |
-//! | KHR_materials_clearcoat | a second, dielectric lobe over all the others, with its own roughness and normal | a second highlight and mirror of `F0 = 0.04`, `weight F` of the light, taken from all below it; both along the coat's own normal, a second mirror ray where that is not the base's |
+//! | KHR_materials_clearcoat | a second, dielectric lobe over all the others, with its own roughness and normal | a second highlight and mirror of `F0 = 0.04`, `weight R` of the light, taken from all below it; both along the coat's own normal, a second mirror ray where that is not the base's |
 //! | KHR_materials_sheen | the "Charlie" lobe of fibres, what it sends back taken from below | that, each lamp by the lobe and ambient light by its integral |
 //! | KHR_materials_iridescence | thin-film interference instead of `F`, at each half vector | that, at the angle of the viewer, for dielectric and metal mixed |
 //! | KHR_materials_anisotropy | a lobe that is longer along a direction | a round one, as high: the geometric mean of both `alpha` |

@@ -10,7 +10,7 @@ const STEPS: usize = 16;
 const SLOPES: u32 = 24;
 const DIRECTIONS: u32 = 16;
 
-/// Rows by width, the first of which is wider than 0; columns by the root of `n . v`.
+/// Rows by width, from the first step on, since without width it is Schlick's formula; columns by the root of `n . v`.
 type Table = [[[f32; 2]; STEPS + 1]; STEPS];
 
 static TABLE: LazyLock<Table> = LazyLock::new(|| {
