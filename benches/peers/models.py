@@ -19,7 +19,7 @@ class Asked(NamedTuple):
 
     name: str
     path: str
-    seen: Optional[tuple]  # Eye, target, vertical field of view in degrees.
+    seen: Optional[tuple]  # Eye, target, vertical field of view in degrees, and whether a lamp lights it.
 
 
 class Model(NamedTuple):
@@ -37,24 +37,24 @@ class Model(NamedTuple):
 
 
 def asked(text):
-    """Of `room=room.glb@4,1.7,3/1,1,1/60`; the view may be missing."""
+    """Of `room=room.glb@4,1.7,3/1,1,1/60`, with or without `/lamp`; the whole view may be missing."""
     name, _, rest = text.partition("=")
     path, _, seen = rest.partition("@")
     if not name.isidentifier() or not path:
-        raise argparse.ArgumentTypeError(f"{text}: expected NAME=FILE or NAME=FILE@EYE/TARGET/FOV")
+        raise argparse.ArgumentTypeError(f"{text}: expected NAME=FILE or NAME=FILE@EYE/TARGET/FOV[/lamp]")
     return Asked(name, path, point_of_view(seen) if seen else None)
 
 
 def point_of_view(text):
-    """Of `4,1.7,3/1,1,1/60`."""
+    """Of `4,1.7,3/1,1,1/60` or `4,1.7,3/1,1,1/60/lamp`."""
     try:
-        eye, target, fov = text.split("/")
+        eye, target, fov, *lamp = text.split("/")
         eye, target = ([float(a) for a in point.split(",")] for point in (eye, target))
-        if len(eye) == len(target) == 3:
-            return eye, target, float(fov)
+        if len(eye) == len(target) == 3 and eye != target and lamp in ([], ["lamp"]):
+            return eye, target, float(fov), bool(lamp)
     except ValueError:
         pass
-    raise argparse.ArgumentTypeError(f"{text}: expected EYE/TARGET/FOV, as in 4,1.7,3/1,1,1/60")
+    raise argparse.ArgumentTypeError(f"{text}: expected EYE/TARGET/FOV[/lamp], as in 4,1.7,3/1,1,1/60")
 
 
 def found(wanted, work, say):
@@ -68,9 +68,8 @@ def found(wanted, work, say):
         eye, target, fov, radius = view.framed(low, high)
         lamp = None
         if one.seen:
-            eye, target, fov = one.seen
-            # Indoors the sun shines on the roof.
-            lamp = view.lamp_for(eye, target)
+            eye, target, fov, lit = one.seen
+            lamp = view.lamp_for(eye, target) if lit else None
         sun = view.sun_for(eye, target)
         yield Model(one.name, str(Path(one.path).resolve()), triangles, eye, target, fov, radius, lamp, sun)
 
@@ -83,7 +82,7 @@ def usual(work, say):
         yield Asked("helmet", str(helmet), None)
     else:
         say(f"SKIPPED model helmet: no {HELMET} below LUCH_TEST_MODELS ({root or 'not set'}); --model helmet=FILE names it")
-    for name, seen in (("room", ([4.6, 1.7, 4.2], [1.6, 0.8, 0.8], 60.0)), ("terrain", None)):
+    for name, seen in (("room", ([4.6, 1.7, 4.2], [1.6, 0.8, 0.8], 60.0, False)), ("terrain", None)):
         path = work / f"{name}.glb"
         if not path.exists():
             # In a process of its own, for memory held here would count as the peers'.

@@ -131,10 +131,9 @@ def parts():
 
 
 def shell(made):
-    """Floor, walls and ceiling, thin boxes about an open side where the viewer may stand back."""
+    """Floor and walls, thin boxes, without a ceiling: the sun shines in, the only light that all renderers can share."""
     made["floor"].box((0, -0.05, 0), (WIDE, 0, DEEP))
     wall = made["wall"]
-    wall.box((0, HIGH, 0), (WIDE, HIGH + 0.05, DEEP))
     wall.box((-0.05, 0, 0), (0, HIGH, DEEP))
     wall.box((WIDE, 0, 0), (WIDE + 0.05, HIGH, DEEP))
     wall.box((0, 0, -0.05), (WIDE, HIGH, 0))

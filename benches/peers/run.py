@@ -52,9 +52,9 @@ def parsed():
     add("--luch-arguments", metavar="WORDS", help="one more row: luch with these arguments too")
     add("--venv", metavar="FOLDER", help="the virtual environment that has the Python packages [default: this Python]")
     add("--peers", metavar="NAMES", default=",".join(PEERS), help="with commas between [default: %(default)s]")
-    add("--model", metavar="NAME=FILE[@EYE/TARGET/FOV]", action="append", default=[], type=models.asked,
-        help="a GLB, and its view where it is not to be framed, as in room=r.glb@4,1.7,3/1,1,1/60: lit by a lamp then; "
-        "may be repeated [default: helmet, room, terrain]")  # fmt: skip
+    add("--model", metavar="NAME=FILE[@EYE/TARGET/FOV[/lamp]]", action="append", default=[], type=models.asked,
+        help="a GLB, and its view where it is not to be framed, as in room=r.glb@4,1.7,3/1,1,1/60/lamp: the lamp is for "
+        "rooms that the sun does not reach; may be repeated [default: helmet, room, terrain]")  # fmt: skip
     add("--size", metavar="WxH", type=size, default=(1280, 720), help="[default: 1280x720]")
     add("--samples", metavar="N", type=int, default=4, help="a pixel [default: 4]")
     add("--bounces", metavar="N", type=int, default=2, help="at most [default: 2]")
