@@ -41,9 +41,11 @@ def texture(number, material):
     smooth = material["roughness"] < 0.3 and not material["roughness_image"]
     mirror = f"reflection {{ {0.6 * material['metallic'] + 0.04:.3g} metallic }}" if smooth else ""
     width = max(material["roughness"] ** 2, 0.001)
+    # POV-Ray's highlight at a roughness of 1 is a veil over everything.
+    shine = 0.3 * (1 - material["roughness"])
     return (
         f"#declare material_{number} = texture {{ {'uv_mapping ' if image else ''}pigment {{ {pigment} }}\n"
-        f" finish {{ ambient 0.3 diffuse 0.7 specular 0.2 roughness {width:.4g} {mirror} }} }}\n"
+        f" finish {{ ambient 0.3 diffuse 0.7 specular {shine:.3g} roughness {width:.4g} {mirror} }} }}\n"
     )
 
 

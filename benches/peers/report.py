@@ -2,6 +2,7 @@
 
 import csv
 import datetime
+import hashlib
 import io
 import platform
 import shlex
@@ -21,12 +22,12 @@ class Results:
     def __init__(self, arguments, cells, converted, said, work):
         self.arguments, self.cells, self.converted, self.said, self.work = arguments, cells, converted, said, work
         self.date = datetime.datetime.now().strftime("%Y-%m-%d %H:%M")
-        self.models = list(dict.fromkeys(cell.model for cell in cells))
+        self.models = list({cell.model.name: cell.model for cell in cells}.values())
         self.rows = list(dict.fromkeys(cell.row.name for cell in cells))
 
     def cell(self, row, model):
         """The cell of a row and a model, if there is one."""
-        return next((c for c in self.cells if c.row.name == row and c.model == model), None)
+        return next((c for c in self.cells if c.row.name == row and c.model is model), None)
 
     def table(self):
         """A row a renderer, a column a model."""
@@ -87,6 +88,7 @@ class Results:
         return [
             f"commit       {commit()}",
             f"command      {own}",
+            f"binary       luch, sha256 {digest(a.luch)}",
             f"date         {self.date}",
             f"cpu          {processor()}, {a.threads} CPUs used; Linux {platform.release()}",
             f"picture      {a.size[0]} x {a.size[1]}, {a.samples} samples a pixel, at most {a.bounces} bounces",
@@ -101,7 +103,7 @@ class Results:
         return [
             f"  {cell.row.name}: {self.plain(shlex.join(cell.words))}"
             for cell in self.cells
-            if cell.model == self.models[0]
+            if cell.model is self.models[0]
         ]
 
     def plain(self, text):
@@ -128,6 +130,17 @@ def commit():
     ask = lambda *words: subprocess.run(["git", "-C", str(HERE), *words], capture_output=True, text=True).stdout.strip()
     changed = " and changes since" if ask("status", "--porcelain", "--untracked-files=no") else ""
     return (ask("rev-parse", "--short", "HEAD") or "unknown") + changed
+
+
+def digest(path):
+    """The first digits of a file's SHA-256; it is read in pieces, for memory held here would count as the peers'."""
+    if path is None:
+        return "none"
+    found = hashlib.sha256()
+    with open(path, "rb") as file:
+        while piece := file.read(65536):
+            found.update(piece)
+    return found.hexdigest()[:16]
 
 
 def processor():

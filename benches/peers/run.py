@@ -4,6 +4,7 @@
 import argparse
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -23,6 +24,8 @@ FEWEST_COLOURS = 64
 def main():
     arguments = parsed()
     say = Log()
+    # Ended from outside, too, it leaves no display behind.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("error: terminated"))
     process.hold_to(arguments.threads)
     work = Path(arguments.work).resolve()
     work.mkdir(parents=True, exist_ok=True)

@@ -1,5 +1,7 @@
 """Blender's Cycles by the package bpy, on CPUs. Blender reads the GLB itself."""
 
+import math
+
 from peer import Row, drawn_by
 
 
@@ -29,7 +31,7 @@ def draw(job, _variant):
     towards = turned(job.target) - turned(job.eye)
     camera.rotation_euler = towards.to_track_quat("-Z", "Y").to_euler()
     camera.data.sensor_fit = "VERTICAL"
-    camera.data.angle = job.fov * 3.141592653589793 / 180
+    camera.data.angle = math.radians(job.fov)
     camera.data.clip_start, camera.data.clip_end = job.near, job.far
     scene.camera = camera
 
@@ -37,8 +39,8 @@ def draw(job, _variant):
     light = added("light", bpy.data.lights.new("light", kind))
     if job.lamp:
         light.location = turned(job.lamp)
-        # Watts of a point light that gives an irradiance of 3 at the target's distance.
-        light.data.energy = 3 * 4 * 3.141592653589793**2 * job.distance**2
+        # Watts of a point light that gives the sun's irradiance at the target's distance.
+        light.data.energy = 3 * 4 * math.pi * job.distance**2
         light.data.shadow_soft_size = 0
     else:
         light.rotation_euler = (-turned(job.sun)).to_track_quat("-Z", "Y").to_euler()

@@ -23,8 +23,8 @@ def draw(job, _variant):
         camera.look_at(job.target)
         scene.camera = camera
         if job.lamp:
-            # Lumens that give the target the light of the sun below.
-            scene.add_point_light(position=job.lamp, intensity=1.2e6 * job.distance**2, range=job.far)
+            # Candela that give the target the light of the sun below.
+            scene.add_point_light(position=job.lamp, intensity=100_000 * job.distance**2, range=job.far)
         else:
             scene.add_directional_light(direction=[-a for a in job.sun], intensity=100_000)
         scene.environment = renderer.create_environment(numpy.full((32, 64, 3), 0.3, numpy.float32))
