@@ -1,4 +1,7 @@
-"""A scene in POV-Ray's language (3.7): meshes as `mesh2`, materials as textures. z is turned round, for its space is left-handed."""
+"""A scene in POV-Ray's language (3.7): meshes as `mesh2`, materials as textures.
+
+z is turned round, for its space is left-handed.
+"""
 
 FLIP = (1, 1, -1)
 

@@ -1,6 +1,7 @@
 """LuxCore, from the package pyluxcore, on CPUs. It has no glTF: the driver converts before, to PLY and its textures."""
 
 import json
+import math
 import time
 from pathlib import Path
 
@@ -77,7 +78,8 @@ def properties(pyluxcore, named):
 def light(job):
     """A sun of irradiance 3, or a lamp that gives the target as much."""
     if job.lamp:
-        gain = [3 * job.distance**2] * 3
+        # LuxCore divides by the whole solid angle.
+        gain = [3 * 4 * math.pi * job.distance**2] * 3
         return {
             "scene.lights.light.type": "point",
             "scene.lights.light.position": job.lamp,
