@@ -13,6 +13,7 @@ pub(super) use lights::{carried, light};
 use super::Asset;
 use crate::camera::Camera;
 use crate::color::Rgb;
+use crate::framing::View;
 use crate::scene::{Background, Shown};
 
 /// How an asset is to be looked at.
@@ -22,7 +23,7 @@ pub struct Viewpoint {
     pub aspect: f64,
     /// From where.
     pub camera: CameraChoice,
-    /// The vertical field of view in radians, instead of the camera's own.
+    /// The vertical field of view in radians, instead of the camera's own; a framed view is fitted to it.
     pub fov_y: Option<f64>,
     /// The background; the file's, or a default, where it is `None`.
     pub background: Option<Background>,
@@ -52,6 +53,8 @@ pub enum CameraChoice {
     Named(String),
     /// This one.
     Given(Camera),
+    /// Framed like this, whatever cameras the file has.
+    Framed(View),
 }
 
 /// What was chosen where neither the file nor the user said.
