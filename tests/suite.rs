@@ -7,6 +7,7 @@ mod assets;
 mod cli;
 mod common;
 mod finish;
+mod framing;
 mod golden;
 #[cfg(unix)]
 mod hostile;

@@ -13,10 +13,16 @@ const SIDE_CLOSED: f64 = 0.6;
 const CLOSED: f64 = 0.85;
 /// So much of what is seen from within shows its front.
 const FRONTS: f64 = 0.7;
+/// So much of the walls shows nothing outside but backs.
+const TURNED_IN: f64 = 0.55;
 /// At least so much of what is seen from within stands in the room.
 const FURNISHED: f64 = 0.05;
-/// What is nearer than this share of the way to the side of the box stands in the room.
-const NEARER: f64 = 0.75;
+/// Something stands in the room where it and the wall behind it are this share of the way apart.
+const APART: f64 = 0.15;
+/// A wall is within this share of the way from the side of the box.
+const WALL: f64 = 0.12;
+/// So much of each side of the box has a wall: one that has none is open to a viewer outside, as in a doll's house.
+const WALLS: f64 = 0.4;
 /// At least this share of the faces is seen from nowhere outside, above or level.
 const HIDDEN: f64 = 0.5;
 /// Points on each side of the box, each way.
@@ -76,69 +82,91 @@ fn places(voxels: &Voxels) -> impl Iterator<Item = DVec3> {
         .filter(|&place| voxels.at(place).is_empty())
 }
 
-/// What is seen all around from a place.
+/// What there is all around a place.
 struct Survey {
     place: DVec3,
     /// The mean distance of what is seen.
     free: f64,
+    /// The share of what is seen that shows its front.
     fronts: f64,
+    /// The share of what is seen that stands before a wall.
     furnished: f64,
-    /// How much of the hull shows its back outside.
+    /// How much of the side of the box that has the fewest walls has one.
+    walls: f64,
+    /// How much of it shows its back outside.
     turned_in: f64,
+}
+
+/// A way from a place to the side of the box, on which something is seen.
+struct Way {
+    length: f64,
+    seen: Met,
+    /// What is met on the way back, if that is not too near to be told.
+    wall: Option<Met>,
 }
 
 impl Survey {
     /// `None` where the place is not closed in.
     fn from(voxels: &Voxels, place: DVec3) -> Option<Survey> {
-        let (mut seen, mut all) = (Vec::new(), 0);
+        let (mut ways, mut all, mut walls) = (Vec::new(), 0, 1.0);
+        let wall_distance = |way: &Way| way.wall.map_or(way.length, |wall| wall.distance);
+        let is_walled = |way: &&Way| wall_distance(way) < WALL * way.length + voxels.side;
         for side in 0..6 {
-            let targets = targets(voxels, side);
-            let of_side = targets.map(|target| {
-                let way = target - place;
-                (
-                    way,
-                    voxels.meets(place, way.normalize_or_zero(), way.length()),
-                )
-            });
-            let of_side: Vec<(DVec3, Option<Met>)> = of_side.collect();
-            let met = of_side
+            let targets: Vec<DVec3> = targets(voxels, side).collect();
+            let of_side: Vec<Way> = targets
                 .iter()
-                .filter_map(|(way, met)| Some((*way, (*met)?)));
-            let before = seen.len();
-            seen.extend(met);
-            if ((seen.len() - before) as f64) < SIDE_CLOSED * of_side.len() as f64 {
+                .filter_map(|target| Way::of(voxels, place, *target))
+                .collect();
+            if (of_side.len() as f64) < SIDE_CLOSED * targets.len() as f64 {
                 return None;
             }
-            all += of_side.len();
+            let walled = of_side.iter().filter(is_walled).count() as f64;
+            walls = f64::min(walls, walled / of_side.len() as f64);
+            ways.extend(of_side);
+            all += targets.len();
         }
-        if (seen.len() as f64) < CLOSED * f64::from(all as u32) {
+        if (ways.len() as f64) < CLOSED * all as f64 {
             return None;
         }
-        let share = |is: &dyn Fn(&(DVec3, Met)) -> bool| {
-            seen.iter().filter(|one| is(one)).count() as f64 / seen.len() as f64
+        let share = |is: &dyn Fn(&Way) -> bool| {
+            ways.iter().filter(|way| is(way)).count() as f64 / ways.len() as f64
         };
-        let distances = seen.iter().map(|(_, met)| met.distance);
+        let distances = ways.iter().map(|way| way.seen.distance);
         Some(Survey {
             place,
-            free: distances.sum::<f64>() / seen.len() as f64,
-            fronts: share(&|(_, met)| met.is_front),
-            furnished: share(&|(way, met)| met.distance < NEARER * way.length()),
-            turned_in: share(&|(way, _)| {
-                let length = way.length();
-                voxels.meets_a_back(place + *way, -way.normalize_or_zero(), length)
+            free: distances.sum::<f64>() / ways.len() as f64,
+            fronts: share(&|way| way.seen.is_front),
+            furnished: share(&|way| {
+                let between = way.length - way.seen.distance - wall_distance(way);
+                between > APART * way.length + 2.0 * voxels.side
             }),
+            walls,
+            turned_in: share(&|way| way.wall.is_some_and(|wall| !wall.is_front)),
         })
     }
 
     fn is_of_a_room(&self, voxels: &Voxels) -> bool {
-        if self.furnished < FURNISHED {
+        if self.furnished < FURNISHED || self.walls < WALLS {
             return false;
         }
         if self.fronts >= FRONTS {
-            self.turned_in >= FRONTS || hidden(voxels) >= HIDDEN
+            self.turned_in >= TURNED_IN || hidden(voxels) >= HIDDEN
         } else {
             hidden(voxels) >= FRONTS
         }
+    }
+}
+
+impl Way {
+    fn of(voxels: &Voxels, place: DVec3, target: DVec3) -> Option<Way> {
+        let way = target - place;
+        let (length, direction) = (way.length(), way.normalize_or_zero());
+        Some(Way {
+            length,
+            seen: voxels.meets(place, direction, length + voxels.side)?,
+            // From the layer of empty cells.
+            wall: voxels.bumps_into(target + direction * (0.5 * voxels.side), -direction),
+        })
     }
 }
 

@@ -13,6 +13,8 @@ const THIN: f64 = 0.05;
 const STANDS_OUT: f64 = 0.1;
 /// A sky covers at least so much of the sphere around the rest, in steradians: a dome without a floor has 2 pi.
 const SKY: f64 = 1.5 * PI;
+/// In every direction it reaches over so many of the rest's diagonals: a floor does not, though it covers as much.
+const HIGH: f64 = 1.5;
 /// A sky of more triangles than this has no more than the rest: what is made with care is what the file is about.
 const PLAIN: usize = 5000;
 /// So many of the largest things are asked whether they surround the rest.
@@ -140,6 +142,10 @@ fn is_floor(thing: &Thing, rest: &Bounds) -> bool {
 fn is_sky(thing: &Thing, rest: &Bounds, count_of_rest: usize) -> bool {
     if thing.faces.len() > PLAIN.max(count_of_rest) || thing.faces.iter().any(|face| face.is_clear)
     {
+        return false;
+    }
+    let reach = (thing.bounds.max - thing.bounds.min).min_element();
+    if f64::from(reach) < HIGH * diagonal(rest) {
         return false;
     }
     let middle = (rest.min.as_dvec3() + rest.max.as_dvec3()) * 0.5;

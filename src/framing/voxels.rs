@@ -6,10 +6,13 @@ use glam::{DVec3, UVec3};
 
 /// Cells along the longest side.
 const CELLS: f64 = 48.0;
-/// Points that are put on faces, about: with more, only every so many faces are taken.
-const POINTS: f64 = 1e6;
-/// A side of a cell is faced by what is turned toward it at least so much (a cosine).
+/// Points that are put on small faces, and on large ones, about: with more, only every so many are taken.
+const POINTS: f64 = 5e5;
+/// A face on which there are more points is large.
+const LARGE: f64 = 100.0;
+/// A side of a cell is faced by what is turned toward it at least so much (a cosine); by a way that grazes it, too.
 const FACING: f64 = 0.3;
+const GRAZING: f64 = 0.05;
 /// Steps along a ray, in cells.
 const STEP: f64 = 0.6;
 
@@ -47,6 +50,8 @@ pub(super) struct Voxels {
     pub(super) max: DVec3,
     /// The side of a cell.
     pub(super) side: f64,
+    /// The corner of the first cell: there is a layer of empty cells around the box.
+    corner: DVec3,
     counts: UVec3,
     cells: Vec<Cell>,
 }
@@ -60,11 +65,12 @@ impl Voxels {
         if bounds.is_empty() || !(size.min_element() > 2.0 * side) {
             return None;
         }
-        let counts = (size / side).ceil().as_uvec3().max(UVec3::ONE);
+        let counts = (size / side).floor().as_uvec3() + 3;
         let mut voxels = Voxels {
             min,
             max,
             side,
+            corner: min - side,
             counts,
             cells: vec![Cell::default(); counts.element_product() as usize],
         };
@@ -74,14 +80,19 @@ impl Voxels {
             let along = |edge: DVec3| libm::ceil(2.0 * edge.length() / side).max(1.0);
             (along(b - a), along(c - a))
         };
-        let total: f64 = faces
-            .iter()
-            .map(points)
-            .map(|(rows, columns)| (rows + 1.0) * (columns + 1.0))
-            .sum();
-        let every = libm::ceil(total / POINTS).max(1.0) as usize;
-        for face in faces.iter().step_by(every) {
-            voxels.add(face, points(face));
+        // Of walls, which are few and large, none is missed for the sake of the many and small.
+        let is_large = |face: &Face| {
+            let (rows, columns) = points(face);
+            rows * columns > LARGE
+        };
+        for large in [false, true] {
+            let of_size = faces.iter().filter(|face| is_large(face) == large);
+            let counts = of_size.clone().map(points);
+            let total: f64 = counts.map(|(rows, columns)| rows * columns).sum();
+            let every = libm::ceil(total / POINTS).max(1.0) as usize;
+            for face in of_size.step_by(every) {
+                voxels.add(face, points(face));
+            }
         }
         Some(voxels)
     }
@@ -89,9 +100,9 @@ impl Voxels {
     fn add(&mut self, face: &Face, (rows, columns): (f64, f64)) {
         let [a, b, c] = face.points();
         let normal = face.area_normal().normalize_or_zero();
-        let (fronts, mut backs) = (sides(normal), 0);
+        let (fronts, mut backs) = (sides(normal, FACING), 0);
         if face.double_sided {
-            backs = sides(-normal);
+            backs = sides(-normal, FACING);
         }
         for row in 0..=rows as u32 {
             let v = f64::from(row) / rows;
@@ -111,16 +122,15 @@ impl Voxels {
         }
     }
 
-    /// The number of the cell around a point; points on the far sides of the box belong to the last cells.
+    /// The number of the cell around a point.
     fn index(&self, point: DVec3) -> Option<usize> {
-        let place = ((point - self.min) / self.side).floor();
+        let place = (point - self.corner) / self.side;
         // Written to be false for NaN.
-        let is_near =
-            place.cmpge(DVec3::splat(-1.0)).all() && place.cmple(self.counts.as_dvec3()).all();
-        if !is_near {
+        let is_within = place.cmpge(DVec3::ZERO).all() && place.cmplt(self.counts.as_dvec3()).all();
+        if !is_within {
             return None;
         }
-        let UVec3 { x, y, z } = place.max(DVec3::ZERO).as_uvec3().min(self.counts - 1);
+        let UVec3 { x, y, z } = place.as_uvec3();
         Some(((z * self.counts.y + y) * self.counts.x + x) as usize)
     }
 
@@ -132,16 +142,12 @@ impl Voxels {
             .unwrap_or_default()
     }
 
-    pub(super) fn contains(&self, point: DVec3) -> bool {
-        point.cmpge(self.min).all() && point.cmple(self.max).all()
-    }
-
     /// Every cell with faces' middles in it, and its own middle.
     pub(super) fn filled(&self) -> impl Iterator<Item = (DVec3, Cell)> + Clone {
         let (columns, rows) = (self.counts.x as usize, self.counts.y as usize);
         let middle = move |at: usize| {
             let place = [at % columns, at / columns % rows, at / columns / rows];
-            DVec3::from_array(place.map(|x| x as f64 + 0.5)) * self.side + self.min
+            DVec3::from_array(place.map(|x| x as f64 + 0.5)) * self.side + self.corner
         };
         let cells = self.cells.iter().enumerate();
         cells
@@ -151,7 +157,7 @@ impl Voxels {
 
     /// The first thing that is seen from a point along a unit direction, within a distance.
     pub(super) fn meets(&self, from: DVec3, direction: DVec3, within: f64) -> Option<Met> {
-        let toward_eye = sides(-direction);
+        let toward_eye = sides(-direction, GRAZING);
         self.along(from, direction, within)
             .find_map(|(distance, cell)| {
                 let is_seen = (cell.fronts | cell.backs) & toward_eye != 0;
@@ -162,19 +168,22 @@ impl Voxels {
             })
     }
 
-    /// Whether the first thing from a point along a direction, seen or not, is seen to have its back there.
-    pub(super) fn meets_a_back(&self, from: DVec3, direction: DVec3, within: f64) -> bool {
-        let toward_eye = sides(-direction);
-        let mut cells = self.along(from, direction, within);
-        let first = cells.find(|(_, cell)| !cell.is_empty());
-        first.is_some_and(|(_, cell)| cell.fronts & toward_eye == 0)
+    /// The first thing from a point along a unit direction, whether it is seen or not.
+    pub(super) fn bumps_into(&self, from: DVec3, direction: DVec3) -> Option<Met> {
+        let toward_eye = sides(-direction, GRAZING);
+        let mut cells = self.along(from, direction, f64::INFINITY);
+        let (distance, cell) = cells.find(|(_, cell)| !cell.is_empty())?;
+        Some(Met {
+            distance,
+            is_front: cell.fronts & toward_eye != 0,
+        })
     }
 
     /// Whether a point is seen from afar, by a viewer in this direction.
     pub(super) fn is_seen_from(&self, point: DVec3, towards_viewer: DVec3) -> bool {
         // What is in the cell itself and the next does not hide it.
         let start = point + towards_viewer * (2.0 * self.side);
-        let toward_viewer = sides(towards_viewer);
+        let toward_viewer = sides(towards_viewer, GRAZING);
         let mut cells = self.along(start, towards_viewer, f64::INFINITY);
         !cells.any(|(_, cell)| cell.is_opaque && (cell.fronts | cell.backs) & toward_viewer != 0)
     }
@@ -186,19 +195,20 @@ impl Voxels {
         within: f64,
     ) -> impl Iterator<Item = (f64, Cell)> {
         let step = STEP * self.side;
-        let distances = (1u32..).map(move |number| f64::from(number) * step);
+        let distances = (0u32..).map(move |number| f64::from(number) * step);
         distances
             .take_while(move |&distance| distance < within)
-            .map(move |distance| (distance, from + direction * distance))
-            .take_while(|(_, point)| self.contains(*point))
-            .map(|(distance, point)| (distance, self.at(point)))
+            .map_while(move |distance| {
+                let at = self.index(from + direction * distance)?;
+                Some((distance, *self.cells.get(at)?))
+            })
     }
 }
 
-/// The sides of a cell that a direction is turned toward.
-fn sides(direction: DVec3) -> u8 {
+/// The sides of a cell that a direction is turned toward, by at least a cosine.
+fn sides(direction: DVec3, least: f64) -> u8 {
     let one = |x: f64, bit: u8| {
-        let (positive, negative) = (u8::from(x > FACING), u8::from(x < -FACING));
+        let (positive, negative) = (u8::from(x > least), u8::from(x < -least));
         positive << bit | negative << (bit + 1)
     };
     one(direction.x, 0) | one(direction.y, 2) | one(direction.z, 4)

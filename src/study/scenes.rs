@@ -165,6 +165,7 @@ fn triangles(mesh: &Mesh) -> Vec<Triangle> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::framing::FOV_Y;
     use crate::scene::Scene;
 
     fn counted(shape: Shape, count: u32) -> (u32, Scene) {
