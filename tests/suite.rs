@@ -8,6 +8,7 @@ mod cli;
 mod common;
 mod environment;
 mod finish;
+mod framing;
 mod golden;
 #[cfg(unix)]
 mod hostile;

@@ -9,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
 use luch::accel::{Builder, Preset};
 use luch::film::Layers;
+use luch::framing::Direction;
 use luch::load::{GroundChoice, LightsChoice};
 use luch::output::{BitDepth, Display, Format};
 use luch::shade::Shading;
@@ -67,6 +68,7 @@ Examples:
   luch render assets/scenes/figure-4.toml
   luch render helmet.glb --size 1920x1080 --samples 16 -o helmet.png -o helmet.exr
   luch render room.gltf --camera \"Front door\" --exposure -1
+  luch render chair.obj --view left --orbit 20,15 --zoom 1.5
   luch render chair.obj --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
   luch render helmet.glb -o - | viewer
   luch render helmet.glb -o helmet.png --json > helmet.json
@@ -136,7 +138,19 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "X,Y,Z", requires = "eye", allow_hyphen_values = true, value_parser = values::vector)]
     pub(super) target: Option<Vec3>,
 
-    /// The vertical field of view [default: the camera's; 40 with --eye, 35 for a framed model]
+    /// Frame the model from this side, whatever cameras the file has: its front is toward +Z, its top toward +Y
+    #[arg(long, value_enum, value_name = "SIDE", conflicts_with_all = ["camera", "eye", "target"])]
+    pub(super) view: Option<DirectionValue>,
+
+    /// Frame the model, and go around it by so many degrees to the right and up; in a room, turn
+    #[arg(long, value_name = "YAW,PITCH", allow_hyphen_values = true, conflicts_with_all = ["camera", "eye", "target"], value_parser = values::angles)]
+    pub(super) orbit: Option<[f64; 2]>,
+
+    /// Frame the model, so many times as large: the field of view changes, as with a lens
+    #[arg(long, value_name = "X", allow_hyphen_values = true, conflicts_with_all = ["camera", "eye", "target"], value_parser = values::zoom)]
+    pub(super) zoom: Option<f64>,
+
+    /// The vertical field of view [default: the camera's; 40 with --eye; of a framed model 35, more in a room]
     #[arg(long, value_name = "DEGREES", allow_hyphen_values = true, value_parser = values::field_of_view)]
     pub(super) fov: Option<f64>,
 
@@ -170,8 +184,8 @@ pub(super) struct RenderArguments {
     #[arg(long, value_enum, value_name = "WHOSE")]
     pub(super) lights: Option<LightsValue>,
 
-    /// A floor under the model that shows its shadow; in an EXR and in a transparent PNG the shadow is in alpha. auto: where
-    /// luch frames the model, from outside and from above
+    /// A floor under the model that shows its shadow; in an EXR and in a transparent PNG the shadow is in alpha. auto: where a
+    /// model is seen from outside and from above
     #[arg(long, value_enum, value_name = "WHEN", default_value = "auto")]
     pub(super) ground: GroundValue,
 
@@ -250,6 +264,29 @@ pub(super) struct InfoArguments {
 
     #[command(flatten)]
     pub(super) reading: Reading,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum DirectionValue {
+    Front,
+    Back,
+    Left,
+    Right,
+    Top,
+    ThreeQuarter,
+}
+
+impl From<DirectionValue> for Direction {
+    fn from(value: DirectionValue) -> Direction {
+        match value {
+            DirectionValue::Front => Direction::Front,
+            DirectionValue::Back => Direction::Back,
+            DirectionValue::Left => Direction::Left,
+            DirectionValue::Right => Direction::Right,
+            DirectionValue::Top => Direction::Top,
+            DirectionValue::ThreeQuarter => Direction::ThreeQuarter,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -11,6 +11,7 @@ use glam::Vec3;
 use luch::Error;
 use luch::accel::{self, Accel, Isa, Layout};
 use luch::camera::Camera;
+use luch::framing::View;
 use luch::load::{self, Asset, CameraChoice, Choices, Surrounding, Viewpoint};
 use luch::output::{self, Display};
 use luch::render::{Progress, Settings, render};
@@ -174,7 +175,7 @@ fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Result<Viewpoi
             FOV_WITH_EYE.to_radians(),
         )),
         (_, _, Some(name)) => CameraChoice::Named(name.clone()),
-        _ => CameraChoice::OfFile,
+        _ => framed(arguments).map_or(CameraChoice::OfFile, CameraChoice::Framed),
     };
     Ok(Viewpoint {
         aspect: f64::from(settings.width()) / f64::from(settings.height()),
@@ -188,6 +189,20 @@ fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Result<Viewpoi
         ground: arguments.ground.into(),
         ground_reflectivity: arguments.ground_reflection,
         ..Viewpoint::of_file(1.0)
+    })
+}
+
+/// The framed view that is asked for, if any is.
+fn framed(arguments: &RenderArguments) -> Option<View> {
+    let RenderArguments {
+        view, orbit, zoom, ..
+    } = arguments;
+    let usual = View::default();
+    let is_asked = view.is_some() || orbit.is_some() || zoom.is_some();
+    is_asked.then(|| View {
+        direction: view.map_or(usual.direction, Into::into),
+        orbit: orbit.unwrap_or(usual.orbit),
+        zoom: zoom.unwrap_or(usual.zoom),
     })
 }
 

@@ -68,6 +68,23 @@ pub(super) fn vector(text: &str) -> Result<Vec3, String> {
     }
 }
 
+/// Two angles in degrees, as in `-30,10`.
+pub(super) fn angles(text: &str) -> Result<[f64; 2], String> {
+    let numbers = text.split(',').map(|number| number.trim().parse());
+    let numbers: Result<Vec<f64>, _> = numbers.collect();
+    match numbers.as_deref() {
+        Ok(&[yaw, pitch]) if yaw.is_finite() && pitch.is_finite() => Ok([yaw, pitch]),
+        _ => Err("expected two angles in degrees with a comma between, as in -30,10".into()),
+    }
+}
+
+/// How many times as large.
+pub(super) fn zoom(text: &str) -> Result<f64, String> {
+    let zoom = text.parse().ok();
+    zoom.filter(|zoom| (1e-3..=1e3).contains(zoom))
+        .ok_or_else(|| "expected a number from 0.001 to 1000; 2 is twice as large".into())
+}
+
 /// A number of bytes, as in `1000000`, `500M` or `4G`: the letters are powers of 1024.
 pub(super) fn bytes(text: &str) -> Result<u64, String> {
     let units = [('K', 10), ('M', 20), ('G', 30), ('T', 40)];

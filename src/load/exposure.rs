@@ -120,6 +120,8 @@ mod tests {
         let face = |index| Face {
             triangle: ball.triangle(index),
             double_sided: false,
+            is_clear: false,
+            object: 0,
         };
         let faces = (0..ball.triangles.len() as u32).map(face);
         stops(faces, lights, DVec3::Z * 100.0)

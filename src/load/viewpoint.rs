@@ -16,6 +16,7 @@ use super::Asset;
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::environment::Surroundings;
+use crate::framing::View;
 use crate::geometry::Bounds;
 use crate::scene::{Background, Shown};
 use std::sync::Arc;
@@ -27,7 +28,7 @@ pub struct Viewpoint {
     pub aspect: f64,
     /// From where.
     pub camera: CameraChoice,
-    /// The vertical field of view in radians, instead of the camera's own.
+    /// The vertical field of view in radians, instead of the camera's own; a framed view is fitted to it.
     pub fov_y: Option<f64>,
     /// The background; the file's, or a default, where it is `None`.
     pub background: Option<Background>,
@@ -100,14 +101,10 @@ pub enum GroundChoice {
 pub(in crate::load) struct Framed {
     /// The camera itself.
     pub(in crate::load) camera: Camera,
-    /// Whether luch chose it.
-    pub(in crate::load) is_chosen: bool,
     /// The box around what it was fitted to, or around everything.
     pub(in crate::load) bounds: Bounds,
     /// Whether it stands in a room.
     pub(in crate::load) is_interior: bool,
-    /// How far from the camera there is nothing, at least.
-    pub(in crate::load) head_room: f64,
 }
 
 /// From where an asset is to be looked at.
@@ -119,6 +116,8 @@ pub enum CameraChoice {
     Named(String),
     /// This one.
     Given(Camera),
+    /// Framed like this, whatever cameras the file has.
+    Framed(View),
 }
 
 /// What was chosen where neither the file nor the user said.

@@ -1,7 +1,7 @@
 //! The generated scenes of `luch study scaling`: one shape, ever more finely.
 
 use crate::camera::Camera;
-use crate::framing::{FOV_Y, Face, frame};
+use crate::framing::{Face, Subject, View};
 use crate::generate;
 use crate::geometry::Triangle;
 use crate::mesh::Mesh;
@@ -133,8 +133,10 @@ fn camera(shape: Shape) -> Camera {
     let faces = around.into_iter().map(|triangle| Face {
         triangle,
         double_sided: true,
+        is_clear: false,
+        object: 0,
     });
-    frame(faces, ASPECT, FOV_Y)
+    Subject::whole(faces).camera(&View::default(), ASPECT, None)
 }
 
 fn ball(center: Vec3, radius: f32) -> Vec<Triangle> {
@@ -163,6 +165,7 @@ fn triangles(mesh: &Mesh) -> Vec<Triangle> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::framing::FOV_Y;
     use crate::scene::Scene;
 
     fn counted(shape: Shape, count: u32) -> (u32, Scene) {

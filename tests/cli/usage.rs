@@ -42,6 +42,10 @@ fn a_slip_of_the_pen_is_one_line() {
             "the argument '--camera <NAME|INDEX>' cannot be used with: --eye <X,Y,Z> --target <X,Y,Z> (see luch render --help)",
         ),
         (
+            &["render", "--view", "top", "--camera", "1"],
+            "the argument '--view <SIDE>' cannot be used with '--camera <NAME|INDEX>' (see luch render --help)",
+        ),
+        (
             &["completions", "ksh"],
             "invalid value 'ksh' for '<SHELL>' [possible values: bash, elvish, fish, powershell, zsh]; tip: a similar \
              value exists: 'zsh' (see luch completions --help)",
@@ -105,6 +109,16 @@ fn a_bad_value_is_told_what_is_expected() {
             "expected an angle above 0 and below 180 degrees",
         ),
         (
+            "orbit <YAW,PITCH>",
+            "20",
+            "expected two angles in degrees with a comma between, as in -30,10",
+        ),
+        (
+            "zoom <X>",
+            "0",
+            "expected a number from 0.001 to 1000; 2 is twice as large",
+        ),
+        (
             "exposure <EV>",
             "nan",
             "expected a number of stops from -100 to 100",
@@ -162,6 +176,11 @@ fn a_bad_value_is_told_what_is_expected() {
             "bvh <PRESET>",
             "best",
             "fastest, very-fast, fast, medium, slow, very-slow",
+        ),
+        (
+            "view <SIDE>",
+            "below",
+            "front, back, left, right, top, three-quarter",
         ),
         ("format <FORMAT>", "tga", "png, exr"),
     ] {

@@ -4,12 +4,15 @@ use super::faces;
 use super::{CameraChoice, Choices, Framed, Viewpoint};
 use crate::Error;
 use crate::camera::{Camera, Clip, Fov, Projection};
-use crate::framing;
+use crate::framing::{LeftOut, Subject, View};
 use crate::geometry::Bounds;
 use crate::load::pose::Pose;
 use crate::load::{Asset, CameraSource, PlacedModel, choice};
 use crate::scene::SceneDescription;
 use glam::DVec3;
+
+/// So many things that a picture is not fitted to are named.
+const MOST_NAMED: usize = 3;
 
 /// The camera that the user, the file or the framing gives, with the field of view that the user asks for.
 pub(in crate::load) fn camera(
@@ -19,53 +22,120 @@ pub(in crate::load) fn camera(
     scene: &SceneDescription,
     choices: &mut Choices,
 ) -> Result<Framed, Error> {
-    let (camera, is_chosen) = chosen_camera(asset, cameras, viewpoint, scene, choices)?;
     let asked = viewpoint
         .fov_y
         .map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
-    let camera = Camera {
-        projection: asked.unwrap_or(camera.projection),
-        ..camera
+    let given = |camera: Camera| {
+        let camera = Camera {
+            projection: asked.unwrap_or(camera.projection),
+            ..camera
+        };
+        around(camera, scene)
     };
-    let points = faces(scene).flat_map(|face| face.triangle.0);
-    Ok(Framed {
-        camera,
-        is_chosen,
-        bounds: Bounds::around(points),
-        is_interior: false,
-        head_room: 1.0,
-    })
-}
-
-fn chosen_camera(
-    asset: &Asset,
-    cameras: &[PlacedCamera],
-    viewpoint: &Viewpoint,
-    scene: &SceneDescription,
-    choices: &mut Choices,
-) -> Result<(Camera, bool), Error> {
     let of_file = |name: &str| {
         camera_of_model(cameras, name).map_err(|problem| Error::malformed(&asset.file, "", problem))
     };
     match (&viewpoint.camera, &asset.camera) {
-        (CameraChoice::Given(camera), _) => Ok((*camera, false)),
-        (CameraChoice::Named(name), _) => Ok((of_file(name)?, false)),
-        (CameraChoice::OfFile, Some(CameraSource::Given(camera))) => Ok((*camera, false)),
-        (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => Ok((of_file(name)?, false)),
-        (CameraChoice::OfFile, None) => {
-            let first = cameras.first();
-            Ok(first
-                .map(|placed| (placed.camera, false))
-                .unwrap_or_else(|| {
-                    choices.lines.push(
-                        "camera: none in the file; a three-quarter view, fitted to the model"
-                            .into(),
-                    );
-                    let fov_y = viewpoint.fov_y.unwrap_or(framing::FOV_Y);
-                    (framing::frame(faces(scene), viewpoint.aspect, fov_y), true)
-                }))
-        }
+        (CameraChoice::Given(camera), _) => Ok(given(*camera)),
+        (CameraChoice::Named(name), _) => of_file(name).map(given),
+        (CameraChoice::OfFile, Some(CameraSource::Given(camera))) => Ok(given(*camera)),
+        (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => of_file(name).map(given),
+        (CameraChoice::OfFile, None) => Ok(match cameras.first() {
+            Some(placed) => given(placed.camera),
+            None => framed(viewpoint, &View::default(), scene, choices),
+        }),
+        (CameraChoice::Framed(view), _) => Ok(framed(viewpoint, view, scene, choices)),
     }
+}
+
+/// The camera of a framed view, and what there is to say of it.
+fn framed(
+    viewpoint: &Viewpoint,
+    view: &View,
+    scene: &SceneDescription,
+    choices: &mut Choices,
+) -> Framed {
+    let subject = Subject::of(faces(scene));
+    let without = left_out(&subject, scene);
+    // Who asks for a view knows of it.
+    if viewpoint.camera == CameraChoice::OfFile {
+        let what = if subject.is_interior() {
+            "a room, seen from inside"
+        } else {
+            "a three-quarter view, fitted to the model"
+        };
+        choices
+            .lines
+            .push(format!("camera: none in the file; {what}{without}"));
+    } else if !without.is_empty() {
+        choices
+            .lines
+            .push(format!("camera: fitted to the model{without}"));
+    }
+    Framed {
+        camera: subject.camera(view, viewpoint.aspect, viewpoint.fov_y),
+        bounds: subject.bounds,
+        is_interior: subject.is_interior(),
+    }
+}
+
+/// A camera that luch did not choose, and what is about it.
+fn around(camera: Camera, scene: &SceneDescription) -> Framed {
+    let bounds = Bounds::around(faces(scene).flat_map(|face| face.triangle.0));
+    let (eye, min, max) = (
+        camera.position,
+        bounds.min.as_dvec3(),
+        bounds.max.as_dvec3(),
+    );
+    let is_within = eye.cmpge(min).all() && eye.cmple(max).all();
+    Framed {
+        camera,
+        bounds,
+        is_interior: is_within && Subject::of(faces(scene)).is_interior(),
+    }
+}
+
+/// What the picture is not fitted to, as the end of a line.
+fn left_out(subject: &Subject, scene: &SceneDescription) -> String {
+    let named = |out: &LeftOut| {
+        let index = out.object as usize;
+        let (instances, spheres) = (&scene.instances, &scene.spheres);
+        let of_sphere = || {
+            Some(
+                spheres
+                    .get(index.checked_sub(instances.len())?)?
+                    .name
+                    .as_str(),
+            )
+        };
+        let of_instance = || {
+            let instance = instances.get(index)?;
+            let of_mesh = scene.meshes.get(instance.mesh as usize);
+            Some(match instance.name.as_str() {
+                "" => of_mesh.map_or("", |mesh| mesh.name.as_str()),
+                name => name,
+            })
+        };
+        let name = of_instance().or_else(of_sphere).unwrap_or_default();
+        let times = out.times_as_large;
+        format!(", without {name:?}, {times:.0} times as large as the rest")
+    };
+    let mut told: String = subject
+        .left_out
+        .iter()
+        .take(MOST_NAMED)
+        .map(named)
+        .collect();
+    let more = subject.left_out.len().saturating_sub(MOST_NAMED);
+    if more > 0 {
+        told += &format!(", without {more} more like it");
+    }
+    match subject.strays {
+        0 => {}
+        1 => told += ", without a triangle far away",
+        count => told += &format!(", without {count} triangles far away"),
+    }
+    told
 }
 
 /// A camera of a model in its place.

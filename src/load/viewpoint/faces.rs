@@ -3,6 +3,7 @@
 use crate::framing::Face;
 use crate::generate;
 use crate::geometry::{Bounds, Triangle};
+use crate::material::{Alpha, AlphaMode, Material};
 use crate::mesh::Mesh;
 use crate::scene::SceneDescription;
 use glam::Vec3;
@@ -12,22 +13,40 @@ use std::sync::Arc;
 /// small file can place one mesh a hundred thousand times.
 const FEW: u64 = 1 << 21;
 
-/// The triangles of a scene, in world space, and some on each sphere. Planes have no end, and count for nothing.
+/// The triangles of a scene, in world space, and some on each sphere. Planes have no end, and count for nothing, and
+/// neither does what is fully transparent, unless there is nothing else.
+///
+/// The objects are the scene's instances by their index, and then its spheres.
 pub(super) fn faces(scene: &SceneDescription) -> impl Iterator<Item = Face> + Clone {
+    let of_instances = scene.instances.iter().map(|instance| instance.material);
+    let of_spheres = scene.spheres.iter().map(|sphere| sphere.material);
+    let mut used = of_instances.chain(of_spheres);
+    let any_is_there = used.any(|material| is_there(&scene.materials[material as usize]));
+    let counts =
+        move |material: u32| !any_is_there || is_there(&scene.materials[material as usize]);
     let ball = Arc::new(generate::icosphere(2));
-    let on_spheres = scene.spheres.iter().flat_map(move |sphere| {
+    let after_instances = scene.instances.len() as u32;
+    let spheres = (after_instances..).zip(&scene.spheres);
+    let spheres = spheres.filter(move |(_, sphere)| counts(sphere.material));
+    let on_spheres = spheres.flat_map(move |(object, sphere)| {
         let (center, radius) = (sphere.shape.center, sphere.shape.radius);
+        let is_clear = is_clear(&scene.materials[sphere.material as usize]);
         let ball = ball.clone();
         (0..ball.triangles.len() as u32).map(move |index| Face {
             triangle: Triangle(ball.triangle(index).0.map(|p| center + p * radius)),
             double_sided: false,
+            is_clear,
+            object,
         })
     });
     let boxes = Arc::new(boxes(scene));
-    let on_meshes = scene.instances.iter().flat_map(move |instance| {
+    let instances = (0..).zip(&scene.instances);
+    let instances = instances.filter(move |(_, instance)| counts(instance.material));
+    let on_meshes = instances.flat_map(move |(object, instance)| {
         let boxes = boxes.clone();
         let index = instance.mesh as usize;
-        let double_sided = scene.materials[instance.material as usize].double_sided;
+        let material = &scene.materials[instance.material as usize];
+        let (double_sided, is_clear) = (material.double_sided, is_clear(material));
         let to_world = instance.to_world.as_affine3();
         let mirrors = instance.to_world.matrix3.determinant() < 0.0;
         let stand_in = |boxes: &[Option<Mesh>]| boxes.get(index).is_some_and(Option::is_some);
@@ -48,10 +67,29 @@ pub(super) fn faces(scene: &SceneDescription) -> impl Iterator<Item = Face> + Cl
             Face {
                 triangle,
                 double_sided,
+                is_clear,
+                object,
             }
         })
     });
     on_meshes.chain(on_spheres)
+}
+
+/// Whether any of it is seen, as far as that does not depend on a texture.
+fn is_there(material: &Material) -> bool {
+    let Alpha { mode, coverage, .. } = &material.alpha;
+    match mode {
+        AlphaMode::Opaque => true,
+        AlphaMode::Mask { cutoff } => coverage.factor >= *cutoff,
+        AlphaMode::Blend => coverage.factor > 0.0,
+    }
+}
+
+/// Whether what lies behind it is seen through it.
+fn is_clear(material: &Material) -> bool {
+    let through = material.transmission.as_ref();
+    matches!(material.alpha.mode, AlphaMode::Blend)
+        || through.is_some_and(|through| through.share.factor > 0.5)
 }
 
 /// What [`faces`] take where they are kept, in bytes.

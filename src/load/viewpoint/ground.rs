@@ -10,19 +10,19 @@ const WIDER: f32 = 2.5;
 /// How far below the model the floor is, in parts of its size: what lies flat at its bottom is not in the floor.
 const BELOW: f32 = 1e-4;
 
-/// The floor that a model stands on, if it is to have one: where luch frames it, from outside and from above.
+/// The floor that a model stands on, if it is to have one: where it is seen from outside and from above.
 pub(in crate::load) fn ground(
     asset: &Asset,
     viewpoint: &Viewpoint,
     framed: &Framed,
 ) -> Option<Ground> {
-    let bounds = framed.bounds;
-    let fits = !bounds.is_empty() && framed.camera.position.y > f64::from(bounds.min.y);
+    let (bounds, eye) = (framed.bounds, framed.camera.position);
+    let is_outside =
+        eye.cmplt(bounds.min.as_dvec3()).any() || eye.cmpgt(bounds.max.as_dvec3()).any();
+    let is_above = eye.y > f64::from(bounds.min.y);
     let wanted = match viewpoint.ground {
         GroundChoice::On => true,
-        GroundChoice::Auto => {
-            !asset.is_scene_file && framed.is_chosen && !framed.is_interior && fits
-        }
+        GroundChoice::Auto => !asset.is_scene_file && is_outside && is_above,
         GroundChoice::Off => false,
     };
     let size = bounds.max - bounds.min;

@@ -88,7 +88,8 @@ pub(in crate::load) fn light(
 /// A lamp over the shoulder of who stands in a room.
 fn lamp(framed: &Framed) -> Light {
     let [u, v, _] = framed.camera.basis();
-    let aside = (v * 0.4 - u * 0.25) * framed.head_room;
+    let size = framed.bounds.max - framed.bounds.min;
+    let aside = (v * 0.12 - u * 0.08) * f64::from(size.min_element());
     Light {
         name: "lamp".into(),
         kind: LightKind::Point {
