@@ -1,11 +1,13 @@
 //! The world: what there is, checked once and read-only afterwards.
 
 mod check;
+mod cone;
 mod error;
 mod layout;
 mod look;
 mod microfacets;
 mod mix;
+mod pyramids;
 mod sharing;
 mod surface;
 mod through;
@@ -25,6 +27,7 @@ use crate::mesh::Mesh;
 use crate::shade::Reflectance;
 use crate::texture::Texture;
 use glam::DAffine3;
+use pyramids::Pyramids;
 
 /// What a scene is made of, before anything is checked.
 #[derive(Clone, Debug)]
@@ -123,6 +126,7 @@ pub struct Scene {
     ambient: Rgb,
     materials: Vec<Material>,
     textures: Vec<Texture>,
+    pyramids: Pyramids,
     lights: Vec<Light>,
     spheres: Vec<Object<Sphere>>,
     planes: Vec<Object<Plane>>,
@@ -159,7 +163,8 @@ impl Scene {
     ) -> Result<Scene, SceneError> {
         check::check(&description)?;
         let primitive_count = layout::count_primitives(&description)?;
-        let bytes = sharing::bytes(&description);
+        let pyramids = Pyramids::of(&description.textures, &description.materials);
+        let bytes = sharing::bytes(&description).saturating_add(pyramids.bytes());
         if bytes > most_bytes {
             return Err(SceneError::OutOfMemory {
                 needs: bytes,
@@ -185,6 +190,7 @@ impl Scene {
             ambient: description.ambient,
             materials: description.materials,
             textures: description.textures,
+            pyramids,
             lights: description.lights,
             spheres: description.spheres,
             planes: description.planes,
@@ -258,7 +264,7 @@ impl Scene {
         self.primitive_count
     }
 
-    /// About what its meshes and a search tree over it take, in bytes.
+    /// About what its meshes, a search tree over it and the smaller versions of its textures take, in bytes.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }

@@ -11,13 +11,19 @@ use glam::{Vec3, Vec4};
 
 impl Scene {
     pub(super) fn look_up(&self, used: &TextureUse, vertex: &Vertex) -> [f32; 4] {
-        let uv = vertex.uvs[usize::from(used.uv_set != 0)];
-        let uv = used
-            .transform
-            .map_or(uv, |transform| transform.transform_point2(uv));
-        self.textures
-            .get(used.texture as usize)
-            .map_or([1.0; 4], |texture| texture.sample(uv))
+        let set = usize::from(used.uv_set != 0);
+        let (mut uv, mut footprint) = (vertex.uvs[set], vertex.footprints[set]);
+        if let Some(transform) = used.transform {
+            uv = transform.transform_point2(uv);
+            footprint.axes = footprint.axes.map(|axis| transform.transform_vector2(axis));
+        }
+        let Some(texture) = self.textures.get(used.texture as usize) else {
+            return [1.0; 4];
+        };
+        match self.pyramids.get(used.texture) {
+            Some(pyramid) => texture.sample_over(pyramid, uv, &footprint),
+            None => texture.sample(uv),
+        }
     }
 
     pub(super) fn color(&self, textured: &Textured<Rgb>, vertex: &Vertex) -> Rgb {

@@ -30,7 +30,7 @@ pub(super) fn all(document: &Document, extensions: Vec<Ask>) -> Vec<Ask> {
         (
             "mipmaps",
             has_mipmaps,
-            Treatment::Approximated("a pixel's samples are averaged instead"),
+            Treatment::Honoured,
         ),
         (
             "morph targets",
