@@ -19,3 +19,4 @@ mod models;
 mod output;
 mod refraction;
 mod study;
+mod textures;

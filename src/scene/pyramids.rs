@@ -36,7 +36,10 @@ impl Pyramids {
             let alpha = &material.alpha;
             let fourth = match alpha.mode {
                 AlphaMode::Opaque => continue,
-                AlphaMode::Mask { cutoff } => Fourth::Mask { cutoff },
+                // Written so that a factor of 0 leaves nothing there.
+                AlphaMode::Mask { cutoff } => Fourth::Mask {
+                    cutoff: cutoff / alpha.coverage.factor.max(0.0),
+                },
                 AlphaMode::Blend => Fourth::Coverage,
             };
             if let (AlphaChannel::Alpha, Some(used)) = (alpha.channel, &alpha.coverage.texture) {

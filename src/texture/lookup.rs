@@ -27,6 +27,11 @@ impl Texture {
         (sum / taps.count as f32).to_array()
     }
 
+    /// The level of the pyramid that [`Texture::sample_over`] looks at, 0 for the image itself.
+    pub fn level(&self, footprint: &Footprint) -> f32 {
+        footprint.taps(self.image.width, self.image.height).level
+    }
+
     /// Between the two levels of a pyramid that are nearest: 0 is the image itself.
     fn at_level(&self, pyramid: &Pyramid, uv: Vec2, level: f32) -> Vec4 {
         let level = level.min(pyramid.levels().len() as f32);

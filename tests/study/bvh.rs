@@ -8,6 +8,7 @@ use luch::generate;
 use luch::mesh::Mesh;
 use luch::scene::Scene;
 use luch::shade::Shading;
+use luch::texture::TextureFilter;
 use luch::study::bvh::{self, Choices};
 use luch::study::plan::{Effort, Plan};
 use luch::study::results::{Circumstances, Measured, Results, Run};
@@ -49,6 +50,7 @@ fn plan(scene: Arc<Scene>) -> Plan {
         },
         max_depth: 0,
         shading: Shading::BlinnPhong,
+        texture_filter: TextureFilter::Footprint,
         threads: 1,
         error_against: None,
         heat_maps: vec![bvh::DEFAULT.into()],
