@@ -82,7 +82,9 @@ mod tests {
             },
             1.5,
         );
-        let behind = parallel.refracted(3.0, 1.0, n).refracted(2.0, -1.0, 1.0 / n);
+        let behind = parallel
+            .refracted(3.0, 1.0, n)
+            .refracted(2.0, -1.0, 1.0 / n);
         assert!(behind.width_at(0.5) < 1e-7, "{behind:?}");
     }
 

@@ -14,7 +14,9 @@ const LEAST_COSINE: f32 = 1e-5;
 /// the long one, and the short one, which is square to it.
 pub(super) fn on_surface(d: Vec3, n: Vec3, width: f32) -> [Vec3; 2] {
     let across = n.cross(d);
-    let across = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector());
+    let across = across
+        .try_normalize()
+        .unwrap_or_else(|| n.any_orthonormal_vector());
     let cosine = n.dot(d).abs().max(LEAST_COSINE);
     [across.cross(n) * (width / cosine), across * width]
 }
@@ -60,7 +62,11 @@ impl Scene {
         let along = |i: usize, j: usize| {
             let edge = corners[j] - corners[i];
             let curvature = (normals[j] - normals[i]).dot(edge) / edge.length_squared();
-            if curvature.is_finite() { curvature } else { 0.0 }
+            if curvature.is_finite() {
+                curvature
+            } else {
+                0.0
+            }
         };
         (along(0, 1) + along(1, 2) + along(2, 0)) / 3.0
     }

@@ -89,7 +89,13 @@ impl Scene {
     /// The surface that `ray` met at `hit`, as a viewer along the ray sees it, at the very point.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let mut recent = Recent::default();
-        self.look(ray, hit, self.place(ray, hit, &mut recent), 0.0, &mut recent)
+        self.look(
+            ray,
+            hit,
+            self.place(ray, hit, &mut recent),
+            0.0,
+            &mut recent,
+        )
     }
 
     /// The triangle that a ray met at `hit`; `None` for another shape, and for one that is in a space of its own.

@@ -125,7 +125,10 @@ mod tests {
                 checker.covers(&floor, DVec3::new(x, 0.0, 0.2) + offset.as_dvec3())
             };
             let hits = (0..40_000).filter(|at| point(at % 200, at / 200)).count();
-            assert!((share - hits as f32 / 40_000.0).abs() < 0.01, "{x}: {share}");
+            assert!(
+                (share - hits as f32 / 40_000.0).abs() < 0.01,
+                "{x}: {share}"
+            );
         }
     }
 

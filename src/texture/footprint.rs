@@ -24,9 +24,6 @@ pub(super) struct Taps {
 /// The most lookups for one footprint: a longer one is blurred. As graphics cards have it.
 const MOST_TAPS: f32 = 16.0;
 
-/// Up to so many times longer than wide, a footprint is as good as round.
-const ROUND: f32 = 1.5;
-
 impl Footprint {
     /// The very point that the ray meets.
     pub const POINT: Footprint = Footprint {
@@ -61,11 +58,8 @@ impl Footprint {
         }
         let (longest, shortest) = (longest2.sqrt(), shortest2.max(1.0).sqrt());
         let ratio = longest / shortest;
-        let count = if ratio <= ROUND {
-            1.0
-        } else {
-            ratio.min(MOST_TAPS).ceil()
-        };
+        // One, as long as it is less than half as long again as wide.
+        let count = (ratio - 0.5).ceil().clamp(1.0, MOST_TAPS);
         let level = libm::log2f((longest / count).max(shortest));
         let (cos_2x, sin_2x) = (across / length, along / length);
         let cos_x = (0.5 * (1.0 + cos_2x)).max(0.0).sqrt();
@@ -98,7 +92,10 @@ mod tests {
     fn a_round_footprint_of_four_pixels_is_one_lookup_two_levels_up() {
         for axes in [[[4.0, 0.0], [0.0, 4.0]], [[2.4, 3.2], [-3.2, 2.4]]] {
             let taps = taps(axes[0], axes[1]);
-            assert!(taps.count == 1 && (taps.level - 2.0).abs() < 1e-4, "{taps:?}");
+            assert!(
+                taps.count == 1 && (taps.level - 2.0).abs() < 1e-4,
+                "{taps:?}"
+            );
         }
     }
 
@@ -107,9 +104,16 @@ mod tests {
         // The same ellipse, 8 by 2, given by its axes and by two others.
         let half = 0.5f32.sqrt();
         let by_others = [[8.0 * half, 2.0 * half], [8.0 * half, -2.0 * half]];
-        for [a, b] in [[[8.0, 0.0], [0.0, 2.0]], [[0.0, 2.0], [8.0, 0.0]], by_others] {
+        for [a, b] in [
+            [[8.0, 0.0], [0.0, 2.0]],
+            [[0.0, 2.0], [8.0, 0.0]],
+            by_others,
+        ] {
             let taps = taps(a, b);
-            assert!(taps.count == 4 && (taps.level - 1.0).abs() < 1e-4, "{taps:?}");
+            assert!(
+                taps.count == 4 && (taps.level - 1.0).abs() < 1e-4,
+                "{taps:?}"
+            );
             assert!((taps.step.x.abs() - 2.0).abs() < 1e-4 && taps.step.y.abs() < 1e-3);
         }
     }
@@ -117,7 +121,10 @@ mod tests {
     #[test]
     fn the_longest_footprints_are_blurred_rather_than_sparse() {
         let taps = taps([64.0, 0.0], [0.0, 1.0]);
-        assert!(taps.count == 16 && (taps.level - 2.0).abs() < 1e-4, "{taps:?}");
+        assert!(
+            taps.count == 16 && (taps.level - 2.0).abs() < 1e-4,
+            "{taps:?}"
+        );
     }
 
     #[test]

@@ -69,10 +69,12 @@ impl Texture {
             (Pixels::Eight(pixels), Encoding::Linear) => {
                 self.filtered((image, filter), uv, pixels, |texel| bytes(texel) / 255.0)
             }
-            (Pixels::Sixteen(pixels), Encoding::Srgb) => self.filtered((image, filter), uv, pixels, |texel| {
-                let [x, y, z, w] = (words(texel) / 65535.0).to_array();
-                Vec4::new(srgb_to_linear(x), srgb_to_linear(y), srgb_to_linear(z), w)
-            }),
+            (Pixels::Sixteen(pixels), Encoding::Srgb) => {
+                self.filtered((image, filter), uv, pixels, |texel| {
+                    let [x, y, z, w] = (words(texel) / 65535.0).to_array();
+                    Vec4::new(srgb_to_linear(x), srgb_to_linear(y), srgb_to_linear(z), w)
+                })
+            }
             (Pixels::Sixteen(pixels), Encoding::Linear) => {
                 self.filtered((image, filter), uv, pixels, |texel| words(texel) / 65535.0)
             }
@@ -150,6 +152,7 @@ fn wrapped(i: i64, size: u32, wrap: Wrap) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texture::Fourth;
     use std::sync::Arc;
 
     fn two_by_one(wrap: Wrap, filter: Filter) -> Texture {
@@ -197,6 +200,75 @@ mod tests {
             [at(Wrap::ClampToEdge, 1.25), at(Wrap::ClampToEdge, -0.25)],
             [1.0, 0.0]
         );
+    }
+
+    /// A wave that goes round once, in a number of pixels that halves badly.
+    fn wave(width: u32) -> Texture {
+        let byte = |x: u32| {
+            let turn = (x as f32 + 0.5) / width as f32 * std::f32::consts::TAU;
+            (127.5 + 100.0 * libm::sinf(turn)).round() as u8
+        };
+        let pixels = Pixels::Eight((0..width * 3).map(|at| [byte(at % width); 4]).collect());
+        let image = Arc::new(Image {
+            name: String::new(),
+            width,
+            height: 3,
+            pixels,
+        });
+        Texture {
+            image,
+            ..two_by_one(Wrap::Repeat, Filter::Linear)
+        }
+    }
+
+    fn wide(pixels: f32, texture: &Texture) -> Footprint {
+        let size = Vec2::new(texture.image.width as f32, texture.image.height as f32);
+        Footprint {
+            axes: [Vec2::X * pixels / size.x, Vec2::Y * pixels / size.y],
+        }
+    }
+
+    #[test]
+    fn a_texture_that_repeats_has_no_seam_at_any_size() {
+        for width in [13, 16, 37, 100] {
+            let texture = wave(width);
+            let pyramid = Pyramid::of(&texture.image, Encoding::Linear, Fourth::Number);
+            for pixels in [1.0, 1.5, 2.0, 3.0, 4.7, 6.0] {
+                let footprint = wide(pixels, &texture);
+                let at = |u: f32| texture.sample_over(&pyramid, Vec2::new(u, 0.5), &footprint)[0];
+                // As smooth across the edge as the wave is steep: 0.4 of its turn in radians.
+                let steps = (0..400).map(|i| (at(i as f32 / 200.0), at((i + 1) as f32 / 200.0)));
+                let step = steps.fold(0.0f32, |most, (a, b)| most.max((b - a).abs()));
+                assert!(step < 0.4 * 0.0315 + 0.02, "{width} {pixels}: {step}");
+                assert!((at(0.3) - at(1.3)).abs() < 1e-3 && (at(0.3) - at(-0.7)).abs() < 1e-3);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_drawn_as_large_as_it_is_or_larger_has_the_bits_of_the_image() {
+        let texture = wave(37);
+        let pyramid = Pyramid::of(&texture.image, Encoding::Linear, Fourth::Number);
+        for pixels in [0.0, 0.1, 0.999] {
+            for i in 0..100 {
+                let uv = Vec2::new(i as f32 * 0.0137 - 0.2, 0.4);
+                let found = texture.sample_over(&pyramid, uv, &wide(pixels, &texture));
+                assert_eq!(found, texture.sample(uv));
+            }
+        }
+    }
+
+    #[test]
+    fn drawn_as_small_as_a_pixel_an_image_is_its_mean() {
+        for filter in [Filter::Nearest, Filter::Linear] {
+            let texture = two_by_one(Wrap::Repeat, filter);
+            let pyramid = Pyramid::of(&texture.image, Encoding::Linear, Fourth::Number);
+            for pixels in [2.0, 50.0, 3e38, f32::NAN] {
+                let footprint = wide(pixels, &texture);
+                let red = texture.sample_over(&pyramid, Vec2::new(0.3, 0.5), &footprint)[0];
+                assert_eq!(red, 128.0 / 255.0, "{filter:?} {pixels}");
+            }
+        }
     }
 
     #[test]

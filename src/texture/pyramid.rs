@@ -66,7 +66,12 @@ impl Pyramid {
                         Vec4::new(srgb_to_linear(r), srgb_to_linear(g), srgb_to_linear(b), a)
                     },
                     encode: |v: Vec4| {
-                        [word(v.x), word(v.y), word(v.z), (v.w * 65535.0 + 0.5) as u16]
+                        [
+                            word(v.x),
+                            word(v.y),
+                            word(v.z),
+                            (v.w * 65535.0 + 0.5) as u16,
+                        ]
                     },
                 };
                 codec.levels(image, pixels, fourth, Pixels::Sixteen)
@@ -294,8 +299,15 @@ mod tests {
 
     #[test]
     fn the_last_level_is_one_pixel_and_each_has_half_the_pixels_of_the_one_below() {
-        let pyramid = Pyramid::of(&image(13, 4, |_, _| [0; 4]), Encoding::Linear, Fourth::Number);
-        let sizes = pyramid.levels().iter().map(|level| [level.width, level.height]);
+        let pyramid = Pyramid::of(
+            &image(13, 4, |_, _| [0; 4]),
+            Encoding::Linear,
+            Fourth::Number,
+        );
+        let sizes = pyramid
+            .levels()
+            .iter()
+            .map(|level| [level.width, level.height]);
         assert_eq!(sizes.collect::<Vec<_>>(), [[6, 2], [3, 1], [1, 1]]);
     }
 
@@ -307,9 +319,17 @@ mod tests {
         });
         let srgb = Pyramid::of(&board, Encoding::Srgb, Fourth::Number);
         // 0.5 of the light is 187.5 of 255.
-        assert!(bytes(&srgb.levels()[0]).iter().all(|pixel| *pixel == [188, 188, 188, 255]));
+        assert!(
+            bytes(&srgb.levels()[0])
+                .iter()
+                .all(|pixel| *pixel == [188, 188, 188, 255])
+        );
         let linear = Pyramid::of(&board, Encoding::Linear, Fourth::Number);
-        assert!(bytes(&linear.levels()[1]).iter().all(|pixel| *pixel == [128, 128, 128, 255]));
+        assert!(
+            bytes(&linear.levels()[1])
+                .iter()
+                .all(|pixel| *pixel == [128, 128, 128, 255])
+        );
     }
 
     #[test]
@@ -327,7 +347,11 @@ mod tests {
 
     #[test]
     fn what_is_not_there_gives_no_colour_to_what_is() {
-        let leaf = image(2, 2, |x, _| if x == 0 { [200, 100, 50, 255] } else { [0; 4] });
+        let leaf = image(
+            2,
+            2,
+            |x, _| if x == 0 { [200, 100, 50, 255] } else { [0; 4] },
+        );
         let pyramid = Pyramid::of(&leaf, Encoding::Srgb, Fourth::Coverage);
         assert_eq!(bytes(&pyramid.levels()[0]), [[200, 100, 50, 128]]);
         // Where the fourth channel is something else, colours count alike.

@@ -8,12 +8,12 @@ use luch::generate;
 use luch::mesh::Mesh;
 use luch::scene::Scene;
 use luch::shade::Shading;
-use luch::texture::TextureFilter;
 use luch::study::bvh::{self, Choices};
 use luch::study::plan::{Effort, Plan};
 use luch::study::results::{Circumstances, Measured, Results, Run};
 use luch::study::sets::Kind;
 use luch::study::{Source, Watch, run};
+use luch::texture::TextureFilter;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
