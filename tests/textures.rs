@@ -245,7 +245,7 @@ fn footprints_that_are_round_are_not_enough() {
     assert!(round > 4.0 * long, "{round} {long}");
     let contrast = |picture: &[f32]| spread(rows(picture, 4, 12));
     let [round, long] = [true, false].map(|round| contrast(&by_hand(round)));
-    assert!(round < 0.7 * long, "{round} {long}");
+    assert!(round < 0.8 * long, "{round} {long}");
 }
 
 /// The floor in even light from everywhere, and something before the camera.
