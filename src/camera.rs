@@ -1,5 +1,6 @@
 //! The camera: from a continuous picture position to a primary ray.
 
+use crate::cone::Cone;
 use crate::ray::Ray;
 use glam::DVec3;
 
@@ -122,12 +123,15 @@ impl Camera {
                 )
             }
         };
+        let half_size = [f64::from(width) / 2.0, f64::from(height) / 2.0];
+        let pixel = (x / half_size[0] * (y / half_size[1])).sqrt() as f32;
         View {
             camera: *self,
             u: u * x,
             v: v * y,
             w,
-            half_size: [f64::from(width) / 2.0, f64::from(height) / 2.0],
+            half_size,
+            pixel,
         }
     }
 }
@@ -154,6 +158,8 @@ pub struct View {
     w: DVec3,
     /// `n/2` and `m/2`.
     half_size: [f64; 2],
+    /// The side of a square as large as a pixel, at distance 1.
+    pixel: f32,
 }
 
 impl View {
@@ -208,6 +214,20 @@ impl View {
             self.camera.near * per_depth,
             self.camera.far * per_depth,
         )
+    }
+
+    /// The cone of one of its rays that stands for this share of a pixel's width.
+    #[inline]
+    pub fn cone(&self, ray: &Ray, share: f32) -> Cone {
+        let width = self.pixel * share;
+        match self.camera.projection {
+            // Away from the axis a pixel is farther away than along it.
+            Projection::Perspective { .. } => Cone {
+                width: 0.0,
+                spread: width * self.w.as_vec3().dot(ray.direction),
+            },
+            Projection::Orthographic { .. } => Cone { width, spread: 0.0 },
+        }
     }
 
     /// The distance of the point `ray(t)` along the camera's axis: what an EXR's `Z` holds.

@@ -33,6 +33,7 @@ pub use error::{Error, OutOfMemory};
 
 // Numbers.
 pub mod color;
+pub mod cone;
 pub mod ray;
 pub mod sampling;
 

@@ -6,10 +6,10 @@ pub use settings::{Settings, SettingsError};
 
 use crate::accel::Accel;
 use crate::camera::View;
-use crate::environment::MAX_ROUNDS;
 use crate::film::{COST, Combine, Film, Layer};
 use crate::ray::Ray;
 use crate::scene::Scene;
+use crate::texture::TextureFilter;
 use crate::whitted::{Counts, Rules, Sample, Tracer};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
@@ -56,8 +56,12 @@ pub fn render(scene: &Scene, accel: &Accel, settings: &Settings, progress: &Prog
     let rules = Rules {
         shading: settings.shading,
         max_depth: settings.max_depth,
-        rounds: settings.samples().min(MAX_ROUNDS),
+        texture_filter: settings.texture_filter,
+        samples: settings.samples(),
     };
+    if settings.texture_filter == TextureFilter::Footprint {
+        scene.prepare_textures();
+    }
     let film = Mutex::new(empty_film(scene, settings));
     let painter = || Painter {
         tracer: Tracer::new(scene, accel, rules),

@@ -1,12 +1,14 @@
 //! The world: what there is, checked once and read-only afterwards.
 
 mod check;
+mod cone;
 mod error;
 mod ground;
 mod layout;
 mod look;
 mod microfacets;
 mod mix;
+mod pyramids;
 mod sharing;
 mod surface;
 mod through;
@@ -28,6 +30,7 @@ use crate::mesh::Mesh;
 use crate::shade::Reflectance;
 use crate::texture::Texture;
 use glam::DAffine3;
+use pyramids::Pyramids;
 use std::sync::Arc;
 
 /// What a scene is made of, before anything is checked.
@@ -151,6 +154,7 @@ pub struct Scene {
     ground: Option<Ground>,
     materials: Vec<Material>,
     textures: Vec<Texture>,
+    pyramids: Pyramids,
     lights: Vec<Light>,
     spheres: Vec<Object<Sphere>>,
     planes: Vec<Object<Plane>>,
@@ -187,7 +191,8 @@ impl Scene {
     ) -> Result<Scene, SceneError> {
         check::check(&description)?;
         let primitive_count = layout::count_primitives(&description)?;
-        let bytes = sharing::bytes(&description);
+        let pyramids = Pyramids::of(&description.textures, &description.materials);
+        let bytes = sharing::bytes(&description).saturating_add(pyramids.bytes());
         if bytes > most_bytes {
             return Err(SceneError::OutOfMemory {
                 needs: bytes,
@@ -217,6 +222,7 @@ impl Scene {
             ground: description.ground,
             materials: description.materials,
             textures: description.textures,
+            pyramids,
             lights: description.lights,
             spheres: description.spheres,
             planes: description.planes,
@@ -300,7 +306,7 @@ impl Scene {
         self.primitive_count
     }
 
-    /// About what its meshes and a search tree over it take, in bytes.
+    /// About what its meshes, a search tree over it and the smaller versions of its textures take, in bytes.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }

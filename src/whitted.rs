@@ -20,11 +20,13 @@ pub use count::Counts;
 use crate::accel::Accel;
 use crate::camera::View;
 use crate::color::Rgb;
+use crate::environment::MAX_ROUNDS;
 use crate::film::{FAR_AWAY, Statistics};
 use crate::geometry::Hit;
 use crate::ray::Ray;
 use crate::scene::{Recent, Scene};
 use crate::shade::{Shading, flat, mirror};
+use crate::texture::TextureFilter;
 use batch::{Arrivals, Paths, ShadowRays};
 use environment::Lit;
 use ground::Grounded;
@@ -58,8 +60,26 @@ pub struct Rules {
     pub shading: Shading,
     /// The most mirror bounces.
     pub max_depth: u32,
-    /// Into so many rounds the environment's lights are divided, one for each sample of a pixel, and then again.
-    pub rounds: u32,
+    /// Which part of a texture a ray shows.
+    pub texture_filter: TextureFilter,
+    /// How many samples a pixel has at least: each sees as much less of it.
+    pub samples: u32,
+}
+
+impl Rules {
+    /// The share of a pixel's width that one sample stands for. Half of it at least: how few more samples could need is
+    /// sharper than a picture is.
+    fn share_of_pixel(&self) -> f32 {
+        match self.texture_filter {
+            TextureFilter::Point => 0.0,
+            TextureFilter::Footprint => 1.0 / (self.samples.clamp(1, 4) as f32).sqrt(),
+        }
+    }
+
+    /// Into so many rounds the environment's lights are divided: one for each sample of a pixel, and then again.
+    fn rounds(&self) -> u32 {
+        self.samples.clamp(1, MAX_ROUNDS)
+    }
 }
 
 /// Follows batches of rays through one scene; keeps its memory from batch to batch.
@@ -128,7 +148,8 @@ impl<'a> Tracer<'a> {
         samples.clear();
         samples.resize(camera_rays.len(), nothing);
         self.statistics.camera_rays += camera_rays.len() as u64;
-        self.paths.start(camera_rays);
+        self.paths
+            .start(view, self.rules.share_of_pixel(), camera_rays);
         while !self.paths.rays.is_empty() {
             self.arrive(samples);
             self.pass_ground(number, samples);
@@ -195,7 +216,8 @@ impl<'a> Tracer<'a> {
             let path = self.arrivals.list[index].path as usize;
             if let Some(hit) = &self.hits[path] {
                 let (ray, place) = (&self.paths.rays[path], self.arrivals.place(index));
-                let surface = self.scene.look(ray, hit, place, &mut self.recent);
+                let width = self.paths.paths[path].cone.width_at(hit.t);
+                let surface = self.scene.look(ray, hit, place, width, &mut self.recent);
                 let whole = self.rules.shading != Shading::Flat;
                 self.arrivals.know(index, &surface, whole);
             }

@@ -121,6 +121,7 @@ fn bent() -> (Texture, NormalMap) {
         }),
         wrap: [Wrap::Repeat; 2],
         filter: Filter::Nearest,
+        mipmaps: true,
         encoding: Encoding::Linear,
     };
     let (uv_set, transform) = (0, None);

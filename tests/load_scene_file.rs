@@ -12,7 +12,7 @@ use luch::load::scene_file::{open, parse};
 use luch::load::{Asset, CameraSource, Options, PictureDefaults};
 use luch::material::{Alpha, Material, Model, Textured, Transmission, Volume};
 use luch::shade::Shading;
-use luch::texture::Checker;
+use luch::texture::{Checker, TextureFilter};
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::f64::consts::PI;
 use std::fs;
@@ -95,6 +95,7 @@ fn what_is_not_written_has_the_documented_default() {
         samples: Some(1),
         max_depth: Some(5),
         shading: Some(Shading::BlinnPhong),
+        texture_filter: Some(TextureFilter::Point),
     };
     assert_eq!(asset.picture, picture);
     assert_eq!((asset.background, asset.ambient), (None, None));
@@ -137,6 +138,7 @@ fn background_and_ambient_are_black_where_their_tables_are_empty() {
 fn every_key_of_the_picture_is_read() {
     let asset = with(
         "[render]\nwidth = 320\nheight = 200\nsamples = 25\nmax_depth = 0\nshading = \"phong\"\n\
+         texture_filter = \"footprint\"\n\
          [background]\ncolor = [0.1, 0.2, 0.3]\n[ambient]\ncolor = [1, 2, 3]",
     );
     let picture = PictureDefaults {
@@ -145,6 +147,7 @@ fn every_key_of_the_picture_is_read() {
         samples: Some(25),
         max_depth: Some(0),
         shading: Some(Shading::Phong),
+        texture_filter: Some(TextureFilter::Footprint),
     };
     assert_eq!(asset.picture, picture);
     assert_eq!(asset.background, Some(Rgb::new(0.1, 0.2, 0.3)));

@@ -21,3 +21,4 @@ mod models;
 mod output;
 mod refraction;
 mod study;
+mod textures;

@@ -13,6 +13,7 @@ use luch::framing::Direction;
 use luch::load::{GroundChoice, LightsChoice};
 use luch::output::{BitDepth, Display, Format};
 use luch::shade::Shading;
+use luch::texture::TextureFilter;
 use std::num::NonZeroU8;
 use std::path::{Path, PathBuf};
 
@@ -121,6 +122,11 @@ pub(super) struct RenderArguments {
     /// How surfaces answer light [default: the scene file's, or blinn-phong]
     #[arg(long, value_enum, value_name = "MODEL")]
     pub(super) shading: Option<ShadingValue>,
+
+    /// Which part of a texture or a checkerboard a ray shows: the mean of all that it sees, or the point that it meets
+    /// [default: the scene file's, or point; footprint for models]
+    #[arg(long, value_enum, value_name = "FILTER")]
+    pub(super) texture_filter: Option<TextureFilterValue>,
 
     /// List the model's cameras, and render nothing
     #[arg(long)]
@@ -370,6 +376,21 @@ impl From<GroundValue> for GroundChoice {
             GroundValue::Auto => GroundChoice::Auto,
             GroundValue::On => GroundChoice::On,
             GroundValue::Off => GroundChoice::Off,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(super) enum TextureFilterValue {
+    Footprint,
+    Point,
+}
+
+impl From<TextureFilterValue> for TextureFilter {
+    fn from(value: TextureFilterValue) -> TextureFilter {
+        match value {
+            TextureFilterValue::Footprint => TextureFilter::Footprint,
+            TextureFilterValue::Point => TextureFilter::Point,
         }
     }
 }

@@ -134,6 +134,8 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
     let asked_width = size.map(|Size { width, .. }| width).or(arguments.width);
     let asked_height = size.map(|Size { height, .. }| height).or(arguments.height);
     let shading = arguments.shading.map(Into::into).or(picture.shading);
+    let texture_filter = arguments.texture_filter.map(Into::into);
+    let texture_filter = texture_filter.or(picture.texture_filter);
     Settings::new(
         asked_width.or(picture.width).unwrap_or(width),
         asked_height.or(picture.height).unwrap_or(height),
@@ -142,6 +144,7 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
         shading.unwrap_or_default(),
     )
     .and_then(|settings| settings.with_layers(arguments.layers.unwrap_or_default()))
+    .map(|settings| settings.with_texture_filter(texture_filter.unwrap_or_default()))
     .map_err(|error| {
         let asked = [
             asked_width,

@@ -214,6 +214,7 @@ fn plan(study: &'static str, common: &Common, effort: Effort, subject: &Subject)
         effort,
         max_depth: subject.max_depth.unwrap_or(5),
         shading: subject.shading.unwrap_or(Shading::BlinnPhong),
+        texture_filter: subject.texture_filter.unwrap_or_default(),
         threads: common.threads.map_or(cores, |threads| threads as usize),
         error_against: None,
         heat_maps: Vec::new(),

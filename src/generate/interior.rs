@@ -179,6 +179,7 @@ fn grained(seed: u64) -> Texture {
         }),
         wrap: [Wrap::Repeat; 2],
         filter: Filter::Linear,
+        mipmaps: true,
         encoding: Encoding::Srgb,
     }
 }

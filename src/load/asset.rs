@@ -14,6 +14,7 @@ use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::scene::{Instance, Object, Scene, SceneDescription};
 use crate::shade::Shading;
+use crate::texture::TextureFilter;
 use glam::{DAffine3, Vec3};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -87,6 +88,8 @@ pub struct PictureDefaults {
     pub max_depth: Option<u32>,
     /// The shading model.
     pub shading: Option<Shading>,
+    /// Which part of a texture a ray shows.
+    pub texture_filter: Option<TextureFilter>,
 }
 
 impl Asset {

@@ -3,6 +3,7 @@
 use crate::film::Layers;
 use crate::sampling::Grid;
 use crate::shade::Shading;
+use crate::texture::TextureFilter;
 
 /// What a picture should be like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +15,7 @@ pub struct Settings {
     pub(super) shading: Shading,
     pub(super) tile_side: u32,
     pub(super) layers: Layers,
+    pub(super) texture_filter: TextureFilter,
 }
 
 /// What is wrong with settings.
@@ -108,6 +110,7 @@ impl Settings {
             shading,
             tile_side: TILE_SIDE,
             layers,
+            texture_filter: TextureFilter::default(),
         })
     }
 
@@ -125,6 +128,14 @@ impl Settings {
     pub fn with_tile_side(self, side: u32) -> Settings {
         Settings {
             tile_side: side.max(1),
+            ..self
+        }
+    }
+
+    /// The same picture, its textures shown so.
+    pub fn with_texture_filter(self, texture_filter: TextureFilter) -> Settings {
+        Settings {
+            texture_filter,
             ..self
         }
     }

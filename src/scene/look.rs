@@ -6,18 +6,33 @@ use super::mix::Vertex;
 use crate::color::Rgb;
 use crate::material::{Alpha, AlphaChannel, AlphaMode, Material, Model, NormalMap, Textured};
 use crate::shade::{Reflectance, facets, gloss};
-use crate::texture::TextureUse;
+use crate::texture::{Footprint, TextureUse};
 use glam::{Vec3, Vec4};
 
 impl Scene {
     pub(super) fn look_up(&self, used: &TextureUse, vertex: &Vertex) -> [f32; 4] {
-        let uv = vertex.uvs[usize::from(used.uv_set != 0)];
+        let set = usize::from(used.uv_set != 0);
+        let (uv, footprint) = (vertex.uvs[set], vertex.footprints[set]);
         let uv = used
             .transform
             .map_or(uv, |transform| transform.transform_point2(uv));
-        self.textures
-            .get(used.texture as usize)
-            .map_or([1.0; 4], |texture| texture.sample(uv))
+        let Some(texture) = self.textures.get(used.texture as usize) else {
+            return [1.0; 4];
+        };
+        match self.pyramids.get(used.texture) {
+            Some(pyramid) => texture.sample_over(pyramid, uv, &carried(footprint, used)),
+            None => texture.sample(uv),
+        }
+    }
+
+    /// How much of what a texture shows is a mean of many pixels, 0..1: the share of the pyramid's levels in it.
+    fn blurred(&self, used: &TextureUse, vertex: &Vertex) -> f32 {
+        let textures = self.textures.get(used.texture as usize);
+        let (Some(texture), Some(_)) = (textures, self.pyramids.get(used.texture)) else {
+            return 0.0;
+        };
+        let footprint = vertex.footprints[usize::from(used.uv_set != 0)];
+        texture.level(&carried(footprint, used)).clamp(0.0, 1.0)
     }
 
     pub(super) fn color(&self, textured: &Textured<Rgb>, vertex: &Vertex) -> Rgb {
@@ -38,11 +53,19 @@ impl Scene {
                 AlphaChannel::Red => red,
             }
         });
-        let coverage = (alpha.coverage.factor * texel * vertex.color[3]).clamp(0.0, 1.0);
-        match alpha.mode {
-            AlphaMode::Mask { cutoff } => f32::from(u8::from(coverage >= cutoff)),
-            _ => coverage,
+        let factor = alpha.coverage.factor * vertex.color[3];
+        let coverage = |texel: f32| (factor * texel).clamp(0.0, 1.0);
+        let AlphaMode::Mask { cutoff } = alpha.mode else {
+            return coverage(texel);
+        };
+        let is_there = |texel| f32::from(u8::from(coverage(texel) >= cutoff));
+        // Of many pixels, a texture has how many are there.
+        let blurred = alpha.coverage.texture.as_ref();
+        let blurred = blurred.map_or(0.0, |used| self.blurred(used, vertex));
+        if blurred == 0.0 {
+            return is_there(texel);
         }
+        is_there(texel) * (1.0 - blurred) + is_there(1.0) * texel * blurred
     }
 
     pub(super) fn reflectance(
@@ -115,6 +138,16 @@ impl Scene {
             z * 2.0 - 1.0,
         );
         (t * x + b * y + n * z).normalize_or(n)
+    }
+}
+
+/// A footprint in the texture's own coordinates.
+fn carried(footprint: Footprint, used: &TextureUse) -> Footprint {
+    let Some(transform) = used.transform else {
+        return footprint;
+    };
+    Footprint {
+        axes: footprint.axes.map(|axis| transform.transform_vector2(axis)),
     }
 }
 

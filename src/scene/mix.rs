@@ -3,18 +3,22 @@
 use super::PlacedInstance;
 use crate::geometry::Triangle;
 use crate::mesh::Mesh;
+use crate::texture::Footprint;
 use glam::{Vec2, Vec3, Vec4};
 use std::ops::{Add, Mul};
 
 /// What a material gives its textures: what is interpolated over a primitive, neutral where the mesh says nothing.
 pub(super) struct Vertex {
     pub(super) uvs: [Vec2; 2],
+    /// What the ray sees around them.
+    pub(super) footprints: [Footprint; 2],
     pub(super) color: [f32; 4],
 }
 
 /// Where the mesh says nothing.
 pub(super) const NEUTRAL: Vertex = Vertex {
     uvs: [Vec2::ZERO; 2],
+    footprints: [Footprint::POINT; 2],
     color: [1.0; 4],
 };
 
@@ -89,7 +93,15 @@ impl<'a> Mix<'a> {
         !self.mesh.colors.is_empty()
     }
 
-    /// What textures are looked up with.
+    /// The edges from the first corner to the second and to the third, in each set of texture coordinates.
+    pub(super) fn uv_edges(&self) -> [[Vec2; 2]; 2] {
+        self.mesh.uvs.each_ref().map(|uvs| {
+            let [a, b, c] = self.corners(uvs, Vec2::ZERO);
+            [b - a, c - a]
+        })
+    }
+
+    /// What textures are looked up with, at a point.
     pub(super) fn vertex(&self) -> Vertex {
         let [first, second] = &self.mesh.uvs;
         let mut vertex = NEUTRAL;

@@ -1,5 +1,6 @@
 //! From a hit to the surface there.
 
+use super::cone::on_surface;
 use super::microfacets::Facing;
 use super::mix::{Mix, NEUTRAL};
 use super::{InstanceSpace, Primitive, Recent, Scene, Through};
@@ -9,6 +10,7 @@ use crate::material::{Model, NormalMap, Phong};
 use crate::mesh::normal_matrix;
 use crate::ray::Ray;
 use crate::shade::Reflectance;
+use crate::texture::Footprint;
 use glam::Vec3;
 
 /// A surface where a ray met it.
@@ -84,10 +86,16 @@ impl Place {
 }
 
 impl Scene {
-    /// The surface that `ray` met at `hit`, as a viewer along the ray sees it.
+    /// The surface that `ray` met at `hit`, as a viewer along the ray sees it, at the very point.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
         let mut recent = Recent::default();
-        self.look(ray, hit, self.place(ray, hit, &mut recent), &mut recent)
+        self.look(
+            ray,
+            hit,
+            self.place(ray, hit, &mut recent),
+            0.0,
+            &mut recent,
+        )
     }
 
     /// The triangle that a ray met at `hit`; `None` for another shape, and for one that is in a space of its own.
@@ -145,9 +153,16 @@ impl Scene {
         Place::seen(point, normal, ray.direction)
     }
 
-    /// What `ray` sees at `place`, every texture looked up.
+    /// What `ray` sees at `place`, where it is so wide in the scene's unit, every texture looked up.
     #[inline(never)]
-    pub fn look(&self, ray: &Ray, hit: &Hit, place: Place, recent: &mut Recent) -> Surface {
+    pub fn look(
+        &self,
+        ray: &Ray,
+        hit: &Hit,
+        place: Place,
+        width: f32,
+        recent: &mut Recent,
+    ) -> Surface {
         let primitive = self.primitive_near(hit.primitive, recent);
         let (index, on) = match primitive {
             Primitive::Sphere(sphere) => (self.spheres[sphere].material, None),
@@ -159,7 +174,15 @@ impl Scene {
             }
         };
         let material = self.material(index);
-        let vertex = on.as_ref().map_or(NEUTRAL, |(_, mix)| mix.vertex());
+        let mut vertex = on.as_ref().map_or(NEUTRAL, |(_, mix)| mix.vertex());
+        let seen = (width > 0.0).then(|| on_surface(ray.direction, place.point.normal, width));
+        if let (Some(seen), Some((instance, mix))) = (seen, &on) {
+            let seen = match &instance.space {
+                None => seen,
+                Some(space) => seen.map(|axis| space.to_object.matrix3 * axis),
+            };
+            vertex.footprints = mix.in_texture(seen).map(|axes| Footprint { axes });
+        }
         let bent = |map: &Option<NormalMap>| {
             let (Some(map), Some((instance, mix))) = (map, &on) else {
                 return place.normal;
@@ -196,12 +219,14 @@ impl Scene {
             }),
             Primitive::Plane(plane),
         ) = (&material.model, primitive)
-            && checker.covers(
-                &self.planes[plane].shape,
-                self.planes[plane].shape.double_position(ray),
-            )
         {
-            (reflectance.diffuse, reflectance.ambient) = (checker.color, checker.color);
+            let plane = &self.planes[plane].shape;
+            let seen = seen.unwrap_or([Vec3::ZERO; 2]);
+            let share = checker.share(plane, plane.double_position(ray), seen);
+            if share > 0.0 {
+                reflectance.diffuse = reflectance.diffuse.mix(checker.color, share);
+                reflectance.ambient = reflectance.ambient.mix(checker.color, share);
+            }
         }
         let through = self.through(
             (index, material),

@@ -80,6 +80,7 @@ mod tests {
     use crate::camera::Camera;
     use crate::scene::{Scene, SceneDescription};
     use crate::shade::Shading;
+    use crate::texture::TextureFilter;
     use glam::Vec3;
     use std::sync::Arc;
 
@@ -99,6 +100,7 @@ mod tests {
             effort: Effort::QUICK,
             max_depth: 5,
             shading: Shading::BlinnPhong,
+            texture_filter: TextureFilter::Footprint,
             threads: 1,
             error_against: None,
             heat_maps: Vec::new(),

@@ -3,6 +3,7 @@
 use super::case::{Case, Measure, Threads, What};
 use crate::render::{Settings, SettingsError};
 use crate::shade::Shading;
+use crate::texture::TextureFilter;
 use std::time::Duration;
 
 /// The share of the budget that a build on one thread may take to be timed.
@@ -23,6 +24,8 @@ pub struct Plan {
     pub max_depth: u32,
     /// How surfaces answer light.
     pub shading: Shading,
+    /// Which part of a texture a ray shows.
+    pub texture_filter: TextureFilter,
     /// Threads where all are asked for.
     pub threads: usize,
     /// Samples a pixel of the picture that errors are reckoned against, if they are.
@@ -158,6 +161,7 @@ impl Plan {
     pub fn picture(&self, samples: u32) -> Result<Settings, SettingsError> {
         let [width, height] = self.effort.size;
         Settings::new(width, height, samples, self.max_depth, self.shading)
+            .map(|settings| settings.with_texture_filter(self.texture_filter))
     }
 }
 
@@ -200,6 +204,7 @@ mod tests {
             effort: Effort::QUICK,
             max_depth: 5,
             shading: Shading::BlinnPhong,
+            texture_filter: TextureFilter::Footprint,
             threads: 1,
             error_against: None,
             heat_maps: Vec::new(),

@@ -1,7 +1,9 @@
 //! What a tracer has under way: paths, the surfaces they arrive at, and shadow rays, in memory that is kept.
 
 use super::lanes::{Places, Triangles, WIDTH};
+use crate::camera::View;
 use crate::color::Rgb;
+use crate::cone::Cone;
 use crate::geometry::{Hit, SurfacePoint, Triangle};
 use crate::light::Illumination;
 use crate::ray::{AT_LIGHT, Ray};
@@ -26,6 +28,8 @@ pub(super) struct Path {
     pub(super) roughness: f32,
     /// The share of its light that reaches the camera.
     pub(super) energy: Rgb,
+    /// How wide it is.
+    pub(super) cone: Cone,
 }
 
 /// Where a path travels in no body.
@@ -39,11 +43,11 @@ pub(super) struct Paths {
 }
 
 impl Paths {
-    /// One path for each sample, from the camera.
-    pub(super) fn start(&mut self, camera_rays: &[Ray]) {
+    /// One path for each sample, from the camera of `view`, as wide as this share of a pixel.
+    pub(super) fn start(&mut self, view: &View, share_of_pixel: f32, camera_rays: &[Ray]) {
         self.clear();
         self.rays.extend_from_slice(camera_rays);
-        let path = |sample| Path {
+        let path = |(sample, ray)| Path {
             sample,
             bounces: 0,
             layers: 0,
@@ -51,8 +55,9 @@ impl Paths {
             body: NO_BODY,
             roughness: 0.0,
             energy: Rgb::WHITE,
+            cone: view.cone(ray, share_of_pixel),
         };
-        self.paths.extend((0..camera_rays.len() as u32).map(path));
+        self.paths.extend((0..).zip(camera_rays).map(path));
     }
 
     pub(super) fn push(&mut self, ray: Ray, path: Path) {

@@ -46,7 +46,7 @@ impl Tracer<'_> {
         let Some(environment) = self.scene.environment() else {
             return;
         };
-        let lights = environment.lights(number, self.rules.rounds);
+        let lights = environment.lights(number, self.rules.rounds());
         self.prepare(environment, lights, arrivals, samples);
         for (number, light) in (0..).zip(lights) {
             for lit in &self.lit {

@@ -56,7 +56,7 @@ impl Tracer<'_> {
         };
         let mut grounded = std::mem::take(&mut self.grounded);
         let environment = scene.environment();
-        let lights = environment.map_or(&[][..], |e| e.lights(number, rules.rounds));
+        let lights = environment.map_or(&[][..], |e| e.lights(number, rules.rounds()));
         // As everywhere, the environment's light is known; its lights say only which share of it arrives.
         let whole = environment.map_or(Rgb::BLACK, |e| e.irradiance(Vec3::Y));
         let all = lights.iter().map(|light| before(light, Vec3::Y));

@@ -3,6 +3,7 @@
 use super::batch::{Arrival, Arrivals, Path};
 use super::{MAX_LAYERS, Tracer};
 use crate::color::Rgb;
+use crate::cone::Cone;
 use crate::ray::Ray;
 use crate::scene::Place;
 use crate::shade::{Shading, mirror};
@@ -44,6 +45,7 @@ impl Tracer<'_> {
             energy,
             bounces: path.bounces + 1,
             direct: false,
+            cone: self.mirrored_cone(arrivals, index),
             roughness: path.roughness.max(roughness),
             ..path
         };
@@ -71,6 +73,25 @@ impl Tracer<'_> {
             r.normalize_or(r),
             f32::INFINITY,
         )
+    }
+
+    /// The cone of the mirror ray of an arrival.
+    pub(super) fn mirrored_cone(&mut self, arrivals: &Arrivals, index: usize) -> Cone {
+        let (cone, t, curvature) = self.cone_at(arrivals, index);
+        cone.mirrored(t, curvature, 0.0)
+    }
+
+    /// The cone that arrives, where along its ray, and how much the surface there bulges toward it. What a normal map does
+    /// to cones is not followed.
+    pub(super) fn cone_at(&mut self, arrivals: &Arrivals, index: usize) -> (Cone, f32, f32) {
+        let path = arrivals.list[index].path as usize;
+        let cone = self.paths.paths[path].cone;
+        let (Some(hit), true) = (&self.hits[path], cone != Cone::POINT) else {
+            return (Cone::POINT, 0.0, 0.0);
+        };
+        let curvature = self.scene.curvature(hit, &mut self.recent);
+        let front = arrivals.place(index).front;
+        (cone, hit.t, if front { curvature } else { -curvature })
     }
 
     /// Sends on what the surface lets through, in the direction it came.

@@ -55,7 +55,15 @@ impl Tracer<'_> {
             }
             let Place { normal, .. } = arrivals.place(index);
             let (ray, energy) = (self.mirror_ray(arrivals, index, normal), mirrored);
-            self.go_on(ray, Path { energy, ..path });
+            let cone = self.mirrored_cone(arrivals, index);
+            self.go_on(
+                ray,
+                Path {
+                    energy,
+                    cone,
+                    ..path
+                },
+            );
             return;
         }
         self.mirror(arrivals, index, mirrored);
@@ -88,6 +96,7 @@ impl Tracer<'_> {
     fn bend(&mut self, arrivals: &Arrivals, index: usize, energy: Rgb, indices: Rgb, body: u32) {
         let path = arrivals.list[index].path as usize;
         let place = arrivals.place(index);
+        let (cone, t, curvature) = self.cone_at(arrivals, index);
         let d = self.paths.rays[path].direction;
         let path = Path {
             direct: false,
@@ -109,7 +118,15 @@ impl Tracer<'_> {
         for &(energy, m) in parts {
             if mirror::matters(energy) {
                 let ray = bent_ray(&place, d, m);
-                self.go_on(ray, Path { energy, ..path });
+                let cone = cone.refracted(t, curvature, m);
+                self.go_on(
+                    ray,
+                    Path {
+                        energy,
+                        cone,
+                        ..path
+                    },
+                );
             }
         }
     }

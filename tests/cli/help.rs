@@ -15,6 +15,7 @@ fn help_names_every_option_and_has_examples() {
         "--samples",
         "--max-depth",
         "--shading",
+        "--texture-filter",
         "--list-cameras",
         "--camera",
         "--eye",

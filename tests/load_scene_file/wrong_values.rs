@@ -51,6 +51,11 @@ fn a_value_of_the_wrong_type_is_told_with_its_key_and_line() {
             "shading in [render] is 1, expected \"blinn-phong\", \"phong\", \"lambert\" or \"flat\"",
         ),
         (
+            "[render]\ntexture_filter = \"none\"",
+            2,
+            "texture_filter in [render] is \"none\", expected \"footprint\" or \"point\"",
+        ),
+        (
             "[ambient]\ncolor = 1",
             2,
             "color in [ambient] is 1, expected three finite numbers, [red, green, blue], each 0 or more",

@@ -13,6 +13,7 @@ use luch::study::plan::{Effort, Plan};
 use luch::study::results::{Circumstances, Measured, Results, Run};
 use luch::study::sets::Kind;
 use luch::study::{Source, Watch, run};
+use luch::texture::TextureFilter;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -49,6 +50,7 @@ fn plan(scene: Arc<Scene>) -> Plan {
         },
         max_depth: 0,
         shading: Shading::BlinnPhong,
+        texture_filter: TextureFilter::Footprint,
         threads: 1,
         error_against: None,
         heat_maps: vec![bvh::DEFAULT.into()],

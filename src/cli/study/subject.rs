@@ -9,6 +9,7 @@ use luch::shade::Shading;
 use luch::study::hash::hash_of;
 use luch::study::scenes::{FEWEST, MOST, Shape};
 use luch::study::{Source, resize, scenes};
+use luch::texture::TextureFilter;
 use luch::{Error, generate};
 use std::path::Path;
 use std::sync::Arc;
@@ -25,6 +26,7 @@ pub(super) struct Subject {
     pub(super) max_depth: Option<u32>,
     /// What the file says of the picture.
     pub(super) shading: Option<Shading>,
+    pub(super) texture_filter: Option<TextureFilter>,
     /// What was ignored, and what was chosen for the user.
     pub(super) lines: Vec<String>,
 }
@@ -84,6 +86,7 @@ impl Subject {
             sha256,
             max_depth: asset.picture.max_depth,
             shading: asset.picture.shading,
+            texture_filter: asset.picture.texture_filter,
             lines: warnings.chain(choices.lines).collect(),
             ..Subject::of_scene(name, Arc::new(scene))
         })
@@ -107,6 +110,7 @@ impl Subject {
             sha256: String::new(),
             max_depth: None,
             shading: None,
+            texture_filter: None,
             lines: Vec::new(),
         }
     }

@@ -27,11 +27,7 @@ pub(super) fn all(document: &Document, extensions: Vec<Ask>) -> Vec<Ask> {
                 "Blinn-Phong highlights as wide, mirror rays off what is smooth",
             ),
         ),
-        (
-            "mipmaps",
-            has_mipmaps,
-            Treatment::Approximated("a pixel's samples are averaged instead"),
-        ),
+        ("mipmaps", has_mipmaps, Treatment::Honoured),
         (
             "morph targets",
             primitives.any(|p| p.targets.as_ref().is_some_and(|t| !t.is_empty())),

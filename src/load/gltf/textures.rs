@@ -1,7 +1,8 @@
 //! Textures: which image each shows, and how. What cannot be shown is left out with a warning, and the material's
 //! factor stands alone.
 //!
-//! Filters for images that are drawn small (`minFilter`, mipmaps) are not used: several samples a pixel stand for them.
+//! An image that is drawn small is averaged over what a ray sees of it (see `texture::Footprint`), whatever `minFilter`
+//! asks for, but where that is the nearest pixel.
 
 use super::document::{Document, named};
 use super::images::{Decoder, Tried, image_name};
@@ -11,7 +12,7 @@ use super::{Buffers, Warnings, extensions};
 use crate::Error;
 use crate::load::TextureFacts;
 use crate::texture::{Encoding, Filter, Image, Texture, Wrap};
-use gltf::json::texture::{MagFilter, WrappingMode};
+use gltf::json::texture::{MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
 use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
@@ -138,10 +139,14 @@ impl<'a> Textures<'a> {
             } else {
                 Filter::Linear
             };
+            // Whoever asks for the nearest pixel of the image itself, in whatever size it is drawn, gets that.
+            let mipmaps =
+                sampler.is_none_or(|s| s.min_filter != Some(Checked::Valid(MinFilter::Nearest)));
             self.textures.push(Texture {
                 image,
                 wrap,
                 filter,
+                mipmaps,
                 encoding,
             });
             self.textures.len() as u32 - 1

@@ -166,6 +166,7 @@ impl Textures {
                 image,
                 wrap,
                 filter: Filter::Linear,
+                mipmaps: true,
                 encoding,
             });
             self.list.len() - 1

@@ -7,11 +7,19 @@ use crate::color::Rgb;
 use crate::load::PictureDefaults;
 use crate::sampling::Grid;
 use crate::shade::Shading;
+use crate::texture::TextureFilter;
 
 const RENDER: Schema = Schema {
     key: "render",
     label: "[render]",
-    keys: &["width", "height", "samples", "max_depth", "shading"],
+    keys: &[
+        "width",
+        "height",
+        "samples",
+        "max_depth",
+        "shading",
+        "texture_filter",
+    ],
 };
 
 /// What is seen where nothing is.
@@ -35,6 +43,11 @@ const SHADINGS: [(&str, Shading); 4] = [
     ("flat", Shading::Flat),
 ];
 
+const TEXTURE_FILTERS: [(&str, TextureFilter); 2] = [
+    ("footprint", TextureFilter::Footprint),
+    ("point", TextureFilter::Point),
+];
+
 /// What the file says of the picture. Everything is said: the format has a default for each.
 pub(super) fn read(root: &Table<'_>) -> Result<PictureDefaults, Error> {
     let mut picture = PictureDefaults {
@@ -43,6 +56,8 @@ pub(super) fn read(root: &Table<'_>) -> Result<PictureDefaults, Error> {
         samples: Some(1),
         max_depth: Some(5),
         shading: Some(Shading::BlinnPhong),
+        // The paper's checkerboards are of points.
+        texture_filter: Some(TextureFilter::Point),
     };
     let Some(render) = root.table(&RENDER)? else {
         return Ok(picture);
@@ -55,6 +70,9 @@ pub(super) fn read(root: &Table<'_>) -> Result<PictureDefaults, Error> {
         .or(picture.height);
     picture.max_depth = render.optional("max_depth", &COUNT)?.or(picture.max_depth);
     picture.shading = render.choice("shading", &SHADINGS)?.or(picture.shading);
+    picture.texture_filter = render
+        .choice("texture_filter", &TEXTURE_FILTERS)?
+        .or(picture.texture_filter);
     if let Some(samples) = render.optional("samples", &COUNT)? {
         if Grid::with_samples(samples).is_none() {
             return Err(render.wrong("samples", &nearest_squares(samples)));

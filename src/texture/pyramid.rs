@@ -1,0 +1,371 @@
+//! Smaller and smaller versions of an image, for what is drawn small (Williams 1983, "Pyramidal Parametrics").
+//!
+//! Each level has half the pixels of the one below it in either direction, rounded down, and each of its pixels the mean of
+//! those under it, by area: three by three, with weights, where the number below is odd. So every level covers all of the
+//! image, and none has a seam where it repeats. The means are of linear light; the levels are kept as the image is.
+
+use super::lookup::SRGB_TO_LINEAR;
+use super::{Encoding, Image, Pixels};
+use crate::color::{linear_to_srgb, srgb_to_linear};
+use glam::Vec4;
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
+use std::sync::LazyLock;
+
+/// The levels above an image, half its size first, to one pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pyramid {
+    levels: Vec<Image>,
+}
+
+/// What the fourth channel of an image is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fourth {
+    /// A number by itself.
+    Number,
+    /// The coverage: what is not there has no colour to give to a mean.
+    Coverage,
+    /// Coverage that is there from the cutoff on: the levels hold how much of the area is.
+    Mask {
+        /// The least that is there.
+        cutoff: f32,
+    },
+}
+
+impl Pyramid {
+    /// The pyramid over an image whose numbers mean `encoding`.
+    pub fn of(image: &Image, encoding: Encoding, fourth: Fourth) -> Pyramid {
+        let levels = match (&image.pixels, encoding) {
+            (Pixels::Eight(pixels), Encoding::Srgb) => {
+                let (linear, encoded) = (&*SRGB_TO_LINEAR, &*LINEAR_TO_SRGB);
+                let light = |byte: u8| linear[usize::from(byte)];
+                let byte = |light: f32| {
+                    let at = (light * (ENCODED - 1) as f32 + 0.5) as usize;
+                    encoded[at.min(ENCODED - 1)]
+                };
+                let codec = Codec {
+                    decode: |[r, g, b, a]: [u8; 4]| {
+                        Vec4::new(light(r), light(g), light(b), f32::from(a) / 255.0)
+                    },
+                    encode: |v: Vec4| [byte(v.x), byte(v.y), byte(v.z), (v.w * 255.0 + 0.5) as u8],
+                };
+                codec.levels(image, pixels, fourth, Pixels::Eight)
+            }
+            (Pixels::Eight(pixels), Encoding::Linear) => {
+                let codec = Codec {
+                    decode: |texel: [u8; 4]| Vec4::from(texel.map(f32::from)) / 255.0,
+                    encode: |v: Vec4| v.to_array().map(|x| (x * 255.0 + 0.5) as u8),
+                };
+                codec.levels(image, pixels, fourth, Pixels::Eight)
+            }
+            (Pixels::Sixteen(pixels), Encoding::Srgb) => {
+                let word = |light| (linear_to_srgb(light) * 65535.0 + 0.5) as u16;
+                let codec = Codec {
+                    decode: |texel: [u16; 4]| {
+                        let [r, g, b, a] = texel.map(|x| f32::from(x) / 65535.0);
+                        Vec4::new(srgb_to_linear(r), srgb_to_linear(g), srgb_to_linear(b), a)
+                    },
+                    encode: |v: Vec4| {
+                        [
+                            word(v.x),
+                            word(v.y),
+                            word(v.z),
+                            (v.w * 65535.0 + 0.5) as u16,
+                        ]
+                    },
+                };
+                codec.levels(image, pixels, fourth, Pixels::Sixteen)
+            }
+            (Pixels::Sixteen(pixels), Encoding::Linear) => {
+                let codec = Codec {
+                    decode: |texel: [u16; 4]| Vec4::from(texel.map(f32::from)) / 65535.0,
+                    encode: |v: Vec4| v.to_array().map(|x| (x * 65535.0 + 0.5) as u16),
+                };
+                codec.levels(image, pixels, fourth, Pixels::Sixteen)
+            }
+        };
+        Pyramid { levels }
+    }
+
+    /// The levels, half the image's size first.
+    pub fn levels(&self) -> &[Image] {
+        &self.levels
+    }
+
+    /// About what the pyramid over an image takes, in bytes.
+    pub fn bytes_over(image: &Image) -> u64 {
+        let bytes = match &image.pixels {
+            Pixels::Eight(pixels) => size_of_val(pixels.as_slice()),
+            Pixels::Sixteen(pixels) => size_of_val(pixels.as_slice()),
+        };
+        // A quarter and a quarter of that; a row of pixels is halved only, again and again.
+        match (image.width, image.height) {
+            (1, _) | (_, 1) => bytes as u64,
+            _ => bytes as u64 / 3 + 64 * u64::from(image.width.max(image.height)),
+        }
+    }
+}
+
+/// How finely linear light is told apart before it is encoded: the darkest byte but black is 5 of these, and a table of
+/// them stays in the nearest cache.
+const ENCODED: usize = 1 << 14;
+
+static LINEAR_TO_SRGB: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let encoded = |at: usize| linear_to_srgb(at as f32 / (ENCODED - 1) as f32);
+    (0..ENCODED)
+        .map(|at| (encoded(at) * 255.0 + 0.5) as u8)
+        .collect()
+});
+
+/// From stored pixels to linear light and coverage, and back.
+struct Codec<D, E> {
+    decode: D,
+    encode: E,
+}
+
+impl<D, E> Codec<D, E> {
+    fn levels<T: Copy + Default + Send + Sync>(
+        &self,
+        image: &Image,
+        pixels: &[T],
+        fourth: Fourth,
+        stored: impl Fn(Vec<T>) -> Pixels,
+    ) -> Vec<Image>
+    where
+        D: Fn(T) -> Vec4 + Sync,
+        E: Fn(Vec4) -> T + Sync,
+    {
+        let first = |texel: T| {
+            let v = (self.decode)(texel);
+            match fourth {
+                Fourth::Mask { cutoff } => v.with_w(f32::from(u8::from(v.w >= cutoff))),
+                _ => v,
+            }
+        };
+        let by_coverage = fourth != Fourth::Number;
+        let size = [image.width as usize, image.height as usize];
+        let mut levels: Vec<(Vec<T>, [usize; 2])> = Vec::new();
+        loop {
+            let next = match levels.last() {
+                None if size == [1, 1] => break,
+                None => halved(pixels, size, &first, &self.encode, by_coverage),
+                Some((_, [1, 1])) => break,
+                Some((pixels, size)) => {
+                    halved(pixels, *size, &self.decode, &self.encode, by_coverage)
+                }
+            };
+            levels.push(next);
+        }
+        let level = |(pixels, [width, height]): (Vec<T>, [usize; 2])| Image {
+            name: String::new(),
+            width: width as u32,
+            height: height as u32,
+            pixels: stored(pixels),
+        };
+        levels.into_iter().map(level).collect()
+    }
+}
+
+/// An image of half the size, at least one pixel in each direction.
+fn halved<T: Copy + Default + Send + Sync>(
+    pixels: &[T],
+    [width, height]: [usize; 2],
+    decode: &(impl Fn(T) -> Vec4 + Sync),
+    encode: &(impl Fn(Vec4) -> T + Sync),
+    by_coverage: bool,
+) -> (Vec<T>, [usize; 2]) {
+    /// Fewer pixels are not worth a thread.
+    const PIECE: usize = 1 << 14;
+    let [new_width, new_height] = [width, height].map(|side| (side / 2).max(1));
+    let mut new = vec![T::default(); new_width * new_height];
+    let halves = width.is_multiple_of(2) && height.is_multiple_of(2);
+    let row_of = |j: usize| pixels.get(j * width..(j + 1) * width).unwrap_or_default();
+    let rows = new.par_chunks_mut(new_width).enumerate();
+    rows.with_min_len(PIECE.div_ceil(new_width))
+        .for_each(|(j, row)| {
+            if halves {
+                let (above, below) = (row_of(2 * j), row_of(2 * j + 1));
+                let pairs = above.chunks_exact(2).zip(below.chunks_exact(2));
+                for (pixel, (above, below)) in row.iter_mut().zip(pairs) {
+                    if let (&[a, b], &[c, d]) = (above, below) {
+                        let four = [a, b, c, d].map(|texel| (decode(texel), 0.25));
+                        *pixel = encode(mean(four, by_coverage));
+                    }
+                }
+                return;
+            }
+            let rows = Under::new(j, height);
+            for (i, pixel) in row.iter_mut().enumerate() {
+                let columns = Under::new(i, width);
+                let under = rows.each().flat_map(|(y, share_y)| {
+                    let row = row_of(y);
+                    columns.each().map(move |(x, share_x)| {
+                        let texel = row.get(x).copied().unwrap_or_default();
+                        (decode(texel), share_x * share_y)
+                    })
+                });
+                *pixel = encode(mean(under, by_coverage));
+            }
+        });
+    (new, [new_width, new_height])
+}
+
+/// Which pixels of a row lie under one of the row of half as many, and their shares of it.
+#[derive(Clone, Copy)]
+struct Under {
+    first: usize,
+    shares: [f32; 3],
+}
+
+impl Under {
+    fn new(i: usize, size: usize) -> Under {
+        let shares = if size == 1 {
+            [1.0, 0.0, 0.0]
+        } else if size.is_multiple_of(2) {
+            [0.5, 0.5, 0.0]
+        } else {
+            // n pixels over m = (n - 1) / 2: each is n / m = 2 + 1/m of them wide.
+            let (m, n) = ((size / 2) as f32, size as f32);
+            [(m - i as f32) / n, m / n, (i as f32 + 1.0) / n]
+        };
+        Under {
+            first: 2 * i,
+            shares,
+        }
+    }
+
+    fn each(self) -> impl Iterator<Item = (usize, f32)> {
+        let shares = self.shares.into_iter().enumerate();
+        shares
+            .filter(|(_, share)| *share > 0.0)
+            .map(move |(at, share)| (self.first + at, share))
+    }
+}
+
+/// The mean of texels with shares that add to 1; their colours count by their coverage, if so.
+#[inline(always)]
+fn mean(texels: impl IntoIterator<Item = (Vec4, f32)>, by_coverage: bool) -> Vec4 {
+    let (mut sum, mut covered) = (Vec4::ZERO, Vec4::ZERO);
+    for (texel, share) in texels {
+        sum += texel * share;
+        if by_coverage {
+            covered += texel * (texel.w * share);
+        }
+    }
+    if by_coverage && sum.w > 0.0 {
+        (covered / sum.w).with_w(sum.w)
+    } else {
+        sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4]) -> Image {
+        let pixels = (0..width * height).map(|at| pixel(at % width, at / width));
+        Image {
+            name: String::new(),
+            width,
+            height,
+            pixels: Pixels::Eight(pixels.collect()),
+        }
+    }
+
+    fn bytes(image: &Image) -> &[[u8; 4]] {
+        match &image.pixels {
+            Pixels::Eight(pixels) => pixels,
+            Pixels::Sixteen(_) => &[],
+        }
+    }
+
+    #[test]
+    fn levels_of_one_colour_have_that_colour() {
+        for encoding in [Encoding::Srgb, Encoding::Linear] {
+            for size in [[8, 8], [7, 5], [1, 9], [13, 1], [6, 3]] {
+                for byte in 0..=255 {
+                    let color = [byte, 255 - byte, byte / 2, 200];
+                    let image = image(size[0], size[1], |_, _| color);
+                    for fourth in [Fourth::Number, Fourth::Coverage] {
+                        let pyramid = Pyramid::of(&image, encoding, fourth);
+                        let all = pyramid.levels().iter().flat_map(bytes);
+                        assert!(all.into_iter().all(|pixel| *pixel == color));
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_last_level_is_one_pixel_and_each_has_half_the_pixels_of_the_one_below() {
+        let pyramid = Pyramid::of(
+            &image(13, 4, |_, _| [0; 4]),
+            Encoding::Linear,
+            Fourth::Number,
+        );
+        let sizes = pyramid
+            .levels()
+            .iter()
+            .map(|level| [level.width, level.height]);
+        assert_eq!(sizes.collect::<Vec<_>>(), [[6, 2], [3, 1], [1, 1]]);
+    }
+
+    #[test]
+    fn a_checkers_mean_is_half_of_the_light_not_half_of_the_bytes() {
+        let board = image(4, 4, |x, y| {
+            let white = 255 * ((x + y) % 2) as u8;
+            [white, white, white, 255]
+        });
+        let srgb = Pyramid::of(&board, Encoding::Srgb, Fourth::Number);
+        // 0.5 of the light is 187.5 of 255.
+        assert!(
+            bytes(&srgb.levels()[0])
+                .iter()
+                .all(|pixel| *pixel == [188, 188, 188, 255])
+        );
+        let linear = Pyramid::of(&board, Encoding::Linear, Fourth::Number);
+        assert!(
+            bytes(&linear.levels()[1])
+                .iter()
+                .all(|pixel| *pixel == [128, 128, 128, 255])
+        );
+    }
+
+    #[test]
+    fn every_pixel_of_an_odd_image_counts_alike() {
+        for at in 0..49 {
+            let board = image(7, 7, |x, y| [if y * 7 + x == at { 245 } else { 0 }; 4]);
+            let pyramid = Pyramid::of(&board, Encoding::Linear, Fourth::Number);
+            let [last] = bytes(&pyramid.levels()[1]) else {
+                panic!("two levels");
+            };
+            // 245 / 49 = 5, rounded twice.
+            assert!((4..=6).contains(&last[0]), "{at}: {last:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_gives_no_colour_to_what_is() {
+        let leaf = image(
+            2,
+            2,
+            |x, _| if x == 0 { [200, 100, 50, 255] } else { [0; 4] },
+        );
+        let pyramid = Pyramid::of(&leaf, Encoding::Srgb, Fourth::Coverage);
+        assert_eq!(bytes(&pyramid.levels()[0]), [[200, 100, 50, 128]]);
+        // Where the fourth channel is something else, colours count alike.
+        let pyramid = Pyramid::of(&leaf, Encoding::Linear, Fourth::Number);
+        assert_eq!(bytes(&pyramid.levels()[0]), [[100, 50, 25, 128]]);
+    }
+
+    #[test]
+    fn a_mask_keeps_how_much_of_it_is_there() {
+        // Three of four pixels reach the cutoff; the mean of their alphas would not.
+        let alphas = [130, 130, 130, 0];
+        let leaf = image(2, 2, |x, y| [9, 9, 9, alphas[(y * 2 + x) as usize]]);
+        let mask = Fourth::Mask { cutoff: 0.5 };
+        let pyramid = Pyramid::of(&leaf, Encoding::Srgb, mask);
+        assert_eq!(bytes(&pyramid.levels()[0]), [[9, 9, 9, 191]]);
+    }
+}
