@@ -59,9 +59,7 @@ pub fn render(scene: &Scene, accel: &Accel, settings: &Settings, progress: &Prog
         texture_filter: settings.texture_filter,
         samples: settings.samples(),
     };
-    if settings.texture_filter == TextureFilter::Footprint {
-        scene.prepare_textures();
-    }
+    settings.prepare(scene);
     let film = Mutex::new(empty_film(scene, settings));
     let painter = || Painter {
         tracer: Tracer::new(scene, accel, rules),
@@ -118,6 +116,14 @@ struct Tile {
 }
 
 impl Settings {
+    /// Makes ready what a render of `scene` will look up: [`render`] does it by itself; who calls it before has something
+    /// else done meanwhile.
+    pub fn prepare(&self, scene: &Scene) {
+        if self.texture_filter == TextureFilter::Footprint {
+            scene.prepare_textures();
+        }
+    }
+
     fn tiles(&self) -> Vec<Tile> {
         let side = self.tile_side;
         let across = |top| {

@@ -62,7 +62,9 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let load = start.elapsed();
     summary::announce(arguments, &asset, &choices);
 
-    let accel = Accel::build(&scene, &accel_options);
+    // Neither needs the other.
+    let build = || Accel::build(&scene, &accel_options);
+    let (accel, ()) = rayon::join(build, || settings.prepare(&scene));
     let progress = Progress::default();
     let state = || State {
         doing: "rendering".into(),

@@ -16,6 +16,8 @@ use glam::Vec3;
 pub(super) struct Grounded {
     /// Which of the paths.
     path: u32,
+    /// Where along its ray.
+    t: f32,
     point: SurfacePoint,
     /// One over all the light that there would be without shadows.
     over_all: Rgb,
@@ -29,13 +31,14 @@ impl Tracer<'_> {
         let met = self.scene.ground().and_then(|ground| {
             let t = ground.meets(ray, t_max)?;
             let point = ray.point_at(t);
-            Some((ground, point))
+            Some((ground, t, point))
         });
-        let Some((ground, point)) = met else {
+        let Some((ground, t, point)) = met else {
             return false;
         };
         self.grounded.push(Grounded {
             path: index,
+            t,
             point: SurfacePoint {
                 position: point,
                 normal: Vec3::Y,
@@ -128,6 +131,7 @@ impl Tracer<'_> {
             Path {
                 energy,
                 bounces,
+                cone: path.cone.mirrored(at.t, 0.0, 0.0),
                 ..path
             },
         );

@@ -78,7 +78,9 @@ impl Tracer<'_> {
     /// The cone of the mirror ray of an arrival.
     pub(super) fn mirrored_cone(&mut self, arrivals: &Arrivals, index: usize) -> Cone {
         let (cone, t, curvature) = self.cone_at(arrivals, index);
-        cone.mirrored(t, curvature, 0.0)
+        let arrival = &arrivals.list[index];
+        let roughness = arrivals.reflectances[arrival.reflectance as usize].mirror_roughness;
+        cone.mirrored(t, curvature, roughness * roughness)
     }
 
     /// The cone that arrives, where along its ray, and how much the surface there bulges toward it. What a normal map does
