@@ -3,7 +3,7 @@
 use super::animation::AnimationArguments;
 use super::reading::Reading;
 use super::study::StudyArguments;
-use super::values::{self, BackgroundValue, Size, whole_number};
+use super::values::{self, BackgroundValue, DirectionValue, Size, whole_number};
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
@@ -270,29 +270,6 @@ pub(super) struct InfoArguments {
 
     #[command(flatten)]
     pub(super) reading: Reading,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum DirectionValue {
-    Front,
-    Back,
-    Left,
-    Right,
-    Top,
-    ThreeQuarter,
-}
-
-impl From<DirectionValue> for Direction {
-    fn from(value: DirectionValue) -> Direction {
-        match value {
-            DirectionValue::Front => Direction::Front,
-            DirectionValue::Back => Direction::Back,
-            DirectionValue::Left => Direction::Left,
-            DirectionValue::Right => Direction::Right,
-            DirectionValue::Top => Direction::Top,
-            DirectionValue::ThreeQuarter => Direction::ThreeQuarter,
-        }
-    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -62,7 +62,7 @@ impl Voxels {
         let (min, max) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
         let size = max - min;
         let side = size.max_element() / CELLS;
-        if bounds.is_empty() || !(size.min_element() > 2.0 * side) {
+        if bounds.is_empty() || size.min_element() <= 2.0 * side {
             return None;
         }
         let counts = (size / side).floor().as_uvec3() + 3;
