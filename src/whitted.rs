@@ -67,8 +67,8 @@ pub struct Rules {
 }
 
 impl Rules {
-    /// The share of a pixel's width that one sample stands for. Half of it at least: how few more samples could need is
-    /// sharper than a picture is.
+    /// The share of a pixel's width that one sample stands for: half of it from four samples on, so that the base samples of
+    /// an adaptive picture and its further ones see alike.
     fn share_of_pixel(&self) -> f32 {
         match self.texture_filter {
             TextureFilter::Point => 0.0,

@@ -10,6 +10,7 @@ use luch::output::{self, Display, Format};
 use luch::render::{Progress, Settings, render};
 use luch::scene::SceneDescription;
 use luch::scene::{Background, Object, Scene, Shown};
+use luch::texture::TextureFilter;
 use std::path::{Path, PathBuf};
 
 const WIDTH: u32 = 96;
@@ -22,6 +23,8 @@ fn project(path: &str) -> PathBuf {
 /// Renders a scene as the program would, and holds it against `tests/golden/NAME.png`.
 fn assert_golden(name: &str, scene: &Scene, display: Display) {
     let settings = Settings::new(WIDTH, HEIGHT, 4, 5, Default::default()).expect("settings");
+    // The paper's checkerboards are of points.
+    let settings = settings.with_texture_filter(TextureFilter::Point);
     let film = render(
         scene,
         &Accel::build(scene, &Options::default()),

@@ -431,7 +431,7 @@ fn a_mask_far_away_covers_as_much_as_is_there() {
             255,
             255,
             255,
-            if at % 2 == 0 && at / 32 % 2 == 0 {
+            if at.is_multiple_of(2) && (at / 32).is_multiple_of(2) {
                 100
             } else {
                 140

@@ -5,8 +5,7 @@ use glam::Vec2;
 /// The ellipse that a ray sees of a texture, around the point that it meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footprint {
-    /// Two diameters, in texture coordinates: halves of any two axes of the ellipse that were square to each other on a
-    /// circle before it was stretched.
+    /// Two diameters, in texture coordinates: of the circle that was stretched to the ellipse they were square to each other.
     pub axes: [Vec2; 2],
 }
 

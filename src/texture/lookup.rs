@@ -35,8 +35,7 @@ impl Texture {
     /// Between the two levels of a pyramid that are nearest: 0 is the image itself.
     fn at_level(&self, pyramid: &Pyramid, uv: Vec2, level: f32) -> Vec4 {
         let level = level.min(pyramid.levels().len() as f32);
-        // Written to be false for NaN.
-        if !(level > 0.0) {
+        if level <= 0.0 {
             return self.texel(&self.image, self.filter, uv);
         }
         let (below, share) = (level as usize, level - level.trunc());

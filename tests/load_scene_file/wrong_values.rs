@@ -51,9 +51,9 @@ fn a_value_of_the_wrong_type_is_told_with_its_key_and_line() {
             "shading in [render] is 1, expected \"blinn-phong\", \"phong\", \"lambert\" or \"flat\"",
         ),
         (
-            "[render]\ntexture_filter = \"none\"",
+            "[render]\ntexture_filter = 1",
             2,
-            "texture_filter in [render] is \"none\", expected \"footprint\" or \"point\"",
+            "texture_filter in [render] is 1, expected \"footprint\" or \"point\"",
         ),
         (
             "[ambient]\ncolor = 1",
