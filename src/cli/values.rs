@@ -113,15 +113,17 @@ pub(super) fn layers(text: &str) -> Result<Layers, String> {
     let mut layers = Layers {
         depth: false,
         cost: false,
+        samples: false,
     };
     for name in text.split(',') {
         match name.trim() {
             "beauty" => beauty = true,
             "data" | "Z" => layers.depth = true,
             "cost" => layers.cost = true,
+            "samples" => layers.samples = true,
             other => {
                 return Err(format!(
-                    "there is no layer {other:?}; known are beauty, data, Z and cost, with commas between"
+                    "there is no layer {other:?}; known are beauty, data, Z, cost and samples, with commas between"
                 ));
             }
         }
@@ -241,18 +243,26 @@ mod tests {
 
     #[test]
     fn layers_are_known_names_and_the_beauty_is_one_of_them() {
-        let asked = |depth, cost| Ok(Layers { depth, cost });
+        let asked = |depth, cost| {
+            let samples = false;
+            Ok(Layers {
+                depth,
+                cost,
+                samples,
+            })
+        };
         assert_eq!(layers("beauty"), asked(false, false));
         assert_eq!(layers("beauty, cost"), asked(false, true));
         assert_eq!(layers("cost,Z,beauty"), asked(true, true));
         assert_eq!(layers("beauty,data"), Ok(Layers::default()));
+        assert!(layers("beauty,samples").is_ok_and(|layers| layers.samples && !layers.depth));
         assert_eq!(
             layers("cost"),
             Err("beauty is in every picture; ask for beauty,cost".into())
         );
         assert_eq!(
             layers("beauty,normals"),
-            Err("there is no layer \"normals\"; known are beauty, data, Z and cost, with commas between".into())
+            Err("there is no layer \"normals\"; known are beauty, data, Z, cost and samples, with commas between".into())
         );
         for wrong in ["", "beauty,", "Beauty", "beauty;cost"] {
             assert!(layers(wrong).is_err(), "{wrong}");
