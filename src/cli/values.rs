@@ -163,10 +163,21 @@ pub(super) fn stops(text: &str) -> Result<f32, String> {
 
 /// A display transform by its name.
 pub(super) fn display() -> impl TypedValueParser<Value = Display> {
-    PossibleValuesParser::new(Display::ALL.map(Display::name)).try_map(|name| {
-        let mut all = Display::ALL.into_iter();
-        all.find(|display| display.name() == name)
-            .ok_or("expected the name of a display transform")
+    named("a display transform", Display::ALL, Display::name)
+}
+
+/// One of several by its name.
+pub(super) fn named<T, const N: usize>(
+    what: &'static str,
+    all: [T; N],
+    name_of: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(all.map(name_of)).try_map(move |name| {
+        let found = all.into_iter().find(|&one| name_of(one) == name);
+        found.ok_or_else(|| format!("expected the name of {what}"))
     })
 }
 

@@ -182,7 +182,7 @@ impl Settings {
     }
 
     /// Whether some pixels can get more samples than others.
-    pub(super) fn is_adaptive(&self) -> bool {
+    pub fn is_adaptive(&self) -> bool {
         self.sampling.adaptive && self.sampling.samples > BASE
     }
 
