@@ -63,14 +63,14 @@ impl Sampling {
         }
     }
 
-    /// The numbers of samples after which an adaptive pixel may stop, the last of them all: four times as many each
-    /// time. Of any other pixel only the last.
+    /// The numbers of samples after which an adaptive pixel may stop, the last of them all: twice as many each time, since
+    /// of a (0, 2)-sequence each power of two is as well spread as it can be. Of any other pixel only the last.
     pub fn stops(&self) -> Vec<u32> {
         let mut stops = Vec::new();
         let mut next = u64::from(BASE);
         while self.adaptive && next < u64::from(self.samples) {
             stops.push(next as u32);
-            next *= 4;
+            next *= 2;
         }
         stops.push(self.samples);
         stops
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn an_adaptive_pixel_may_stop_at_each_power_of_four() {
+    fn an_adaptive_pixel_may_stop_at_each_power_of_two() {
         let stops = |samples, adaptive| {
             let sampling = Sampling {
                 adaptive,
@@ -192,10 +192,10 @@ mod tests {
             sampling.stops()
         };
         assert_eq!(stops(64, false), [64]);
-        assert_eq!(stops(64, true), [4, 16, 64]);
-        assert_eq!(stops(10, true), [4, 10]);
+        assert_eq!(stops(64, true), [4, 8, 16, 32, 64]);
+        assert_eq!(stops(10, true), [4, 8, 10]);
         assert_eq!(stops(4, true), [4]);
         assert_eq!(stops(1, true), [1]);
-        assert_eq!(stops(MAX_SAMPLES, true).len(), 8);
+        assert_eq!(stops(MAX_SAMPLES, true).len(), 15);
     }
 }

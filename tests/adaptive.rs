@@ -152,17 +152,14 @@ fn what_is_the_same_everywhere_gets_four_samples() {
 }
 
 #[test]
-fn pixels_stop_at_powers_of_four_and_the_layer_counts_every_sample() {
+fn pixels_stop_at_powers_of_two_and_the_layer_counts_every_sample() {
     let scene = Scene::new(description(1.0, 0.0)).expect("a scene");
     let film = film(&scene, [96, 72], of_model(true));
-    for stop in [4.0, 16.0, 64.0] {
+    let stops = [4.0, 8.0, 16.0, 32.0, 64.0];
+    for stop in stops {
         assert!(counts(&film).contains(&stop), "{stop}");
     }
-    assert!(
-        counts(&film)
-            .iter()
-            .all(|count| [4.0, 16.0, 64.0].contains(count))
-    );
+    assert!(counts(&film).iter().all(|count| stops.contains(count)));
     let sum: f64 = counts(&film).iter().map(|&count| f64::from(count)).sum();
     assert_eq!(sum, film.statistics.samples() as f64);
 }
