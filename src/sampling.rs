@@ -63,14 +63,18 @@ impl Sampling {
         }
     }
 
-    /// The numbers of samples after which an adaptive pixel may stop, the last of them all: twice as many each time, since
-    /// of a (0, 2)-sequence each power of two is as well spread as it can be. Of any other pixel only the last.
+    /// The numbers of samples after which an adaptive pixel may stop, the last of them all: four times as many after the
+    /// first, and then twice as many each time, since of a (0, 2)-sequence each power of two is as well spread as it can
+    /// be. Of any other pixel only the last.
+    ///
+    /// To stop at twice as many as the first misses edges: of figure 5, 0.7 % of the pixels were then off by more than
+    /// 2 of 255, for a tenth fewer rays (2026-11-22).
     pub fn stops(&self) -> Vec<u32> {
         let mut stops = Vec::new();
         let mut next = u64::from(BASE);
         while self.adaptive && next < u64::from(self.samples) {
             stops.push(next as u32);
-            next *= 2;
+            next *= if next == u64::from(BASE) { 4 } else { 2 };
         }
         stops.push(self.samples);
         stops
@@ -183,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn an_adaptive_pixel_may_stop_at_each_power_of_two() {
+    fn an_adaptive_pixel_may_stop_at_powers_of_two() {
         let stops = |samples, adaptive| {
             let sampling = Sampling {
                 adaptive,
@@ -192,10 +196,10 @@ mod tests {
             sampling.stops()
         };
         assert_eq!(stops(64, false), [64]);
-        assert_eq!(stops(64, true), [4, 8, 16, 32, 64]);
-        assert_eq!(stops(10, true), [4, 8, 10]);
+        assert_eq!(stops(64, true), [4, 16, 32, 64]);
+        assert_eq!(stops(10, true), [4, 10]);
         assert_eq!(stops(4, true), [4]);
         assert_eq!(stops(1, true), [1]);
-        assert_eq!(stops(MAX_SAMPLES, true).len(), 15);
+        assert_eq!(stops(MAX_SAMPLES, true).len(), 14);
     }
 }

@@ -95,7 +95,7 @@ fn figure_5_is_that_of_64_samples_for_a_third_of_the_rays() {
     assert_close(
         "figure 5",
         &scene,
-        [320, 240],
+        [400, 300],
         all,
         Display::Srgb,
         1.0 / 3.0,
@@ -155,7 +155,7 @@ fn what_is_the_same_everywhere_gets_four_samples() {
 fn pixels_stop_at_powers_of_two_and_the_layer_counts_every_sample() {
     let scene = Scene::new(description(1.0, 0.0)).expect("a scene");
     let film = film(&scene, [96, 72], of_model(true));
-    let stops = [4.0, 8.0, 16.0, 32.0, 64.0];
+    let stops = [4.0, 16.0, 32.0, 64.0];
     for stop in stops {
         assert!(counts(&film).contains(&stop), "{stop}");
     }

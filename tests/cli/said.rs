@@ -137,7 +137,7 @@ fn json_is_all_that_standard_output_has() {
         );
     }
     let fields = json.as_object().map_or(0, |object| object.len());
-    assert_eq!(fields, 16);
+    assert_eq!(fields, 17);
     let quiet = folder.luch_succeeds(&["render", "scene.toml", "-q", "--json"]);
     assert_eq!(quiet.err, "");
     assert_eq!(quiet.json()["display"], "srgb");

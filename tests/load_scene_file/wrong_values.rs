@@ -175,7 +175,7 @@ fn a_value_out_of_range_is_told_with_its_key_and_line() {
         (
             "[render]\nfilter = \"gauss\"",
             2,
-            "filter in [render] is \"gauss\", expected \"box\", \"blackman-harris\", \"gaussian\" or \"mitchell\"",
+            "filter in [render] is \"gauss\", expected \"box\", \"blackman-harris\", \"gaussian\" or \"mitchell\"; did you mean \"gaussian\"?",
         ),
         (
             "[render]\nadaptive = 1",
