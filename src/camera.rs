@@ -180,6 +180,11 @@ impl View {
         }
     }
 
+    /// The camera rays through these picture positions, behind what `rays` has: each is that of [`View::primary_ray`].
+    pub fn primary_rays_at(&self, positions: &[[f64; 2]], rays: &mut Vec<Ray>) {
+        rays.extend(positions.iter().map(|&[x, y]| self.primary_ray(x, y)));
+    }
+
     /// From the middle of the picture to a column.
     fn across(&self, x: f64) -> DVec3 {
         let [half_width, _] = self.half_size;

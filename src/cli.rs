@@ -11,6 +11,7 @@ mod print;
 mod progress;
 mod reading;
 mod render;
+mod sampling;
 mod study;
 mod summary;
 mod values;

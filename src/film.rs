@@ -50,10 +50,12 @@ pub enum Precision {
 /// How a pixel's samples become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Combine {
-    /// Their mean (box filter).
+    /// Their mean.
     Mean,
     /// The sample nearest to the camera: a mean across an edge would invent surfaces.
     Nearest,
+    /// How many there are.
+    Count,
 }
 
 /// `Z` where nothing is seen: far, but a number.
@@ -90,6 +92,16 @@ pub const COST: Layer = Layer {
     values: Vec::new(),
 };
 
+/// How many samples a pixel got: not the same everywhere where sampling is adaptive.
+pub const SAMPLES: Layer = Layer {
+    name: "samples",
+    channels: &["count"],
+    precision: Precision::Float,
+    unit: "samples a pixel",
+    combine: Combine::Count,
+    values: Vec::new(),
+};
+
 /// Which layers a film has beside the beauty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layers {
@@ -97,6 +109,8 @@ pub struct Layers {
     pub depth: bool,
     /// [`COST`]. Every ray is searched for twice then, so that the times of such a render say nothing.
     pub cost: bool,
+    /// [`SAMPLES`].
+    pub samples: bool,
 }
 
 impl Default for Layers {
@@ -104,6 +118,7 @@ impl Default for Layers {
         Layers {
             depth: true,
             cost: false,
+            samples: false,
         }
     }
 }
@@ -114,6 +129,7 @@ impl Layers {
         let mut list = vec![BEAUTY];
         list.extend(self.depth.then_some(DEPTH));
         list.extend(self.cost.then_some(COST));
+        list.extend(self.samples.then_some(SAMPLES));
         list
     }
 }
@@ -143,6 +159,11 @@ pub struct Statistics {
 }
 
 impl Statistics {
+    /// Samples of every pixel together.
+    pub fn samples(&self) -> u64 {
+        self.camera_rays
+    }
+
     /// Rays of every kind.
     pub fn rays(&self) -> u64 {
         self.camera_rays

@@ -29,7 +29,9 @@ use crate::shade::{Shading, flat, mirror};
 use crate::texture::TextureFilter;
 use batch::{Arrivals, Paths, ShadowRays};
 use environment::Lit;
+use glam::Vec3;
 use ground::Grounded;
+use lanes::WIDTH;
 use std::mem::{swap, take};
 use std::time::{Duration, Instant};
 use transparent::ThroughLayers;
@@ -51,7 +53,14 @@ pub struct Sample {
     pub alpha: f32,
     /// The distance along the camera's axis of what was met first, or [`FAR_AWAY`].
     pub depth: f32,
+    /// Of what was met first, [`Scene::object_of`], or [`NO_OBJECT`].
+    pub object: u32,
+    /// The unit normal there that shading sees; zero where there is none.
+    pub normal: Vec3,
 }
+
+/// The object of a ray that meets none.
+pub const NO_OBJECT: u32 = u32::MAX;
 
 /// How light is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,6 +153,8 @@ impl<'a> Tracer<'a> {
             color: Rgb::BLACK,
             alpha: 1.0,
             depth: FAR_AWAY,
+            object: NO_OBJECT,
+            normal: Vec3::ZERO,
         };
         samples.clear();
         samples.resize(camera_rays.len(), nothing);
@@ -224,11 +235,12 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Adds the light of the surfaces' own, and notes how far they are.
+    /// Adds the light of the surfaces' own, and notes what they are.
     #[inline(never)]
     fn add_own_light(&mut self, view: &View, samples: &mut [Sample]) {
         let Arrivals {
             list,
+            places,
             onward,
             reflectances,
             ..
@@ -244,11 +256,13 @@ impl<'a> Tracer<'a> {
             if arrival.coverage < 1.0 || mirror::matters(arrival.weight * surface.reflectivity) {
                 onward.push(index);
             }
-            // The depth of a camera ray is that of the first surface that is there at all.
+            // What a camera ray meets is the first surface that is there at all.
             if sample.depth == FAR_AWAY && arrival.coverage > 0.0 {
                 let path = arrival.path as usize;
                 if let (0, Some(hit)) = (self.paths.paths[path].bounces, &self.hits[path]) {
                     sample.depth = view.depth(&self.paths.rays[path], hit.t);
+                    sample.object = self.scene.object_of(hit.primitive, &mut self.recent);
+                    sample.normal = places[index / WIDTH].normal(index % WIDTH);
                 }
             }
         }

@@ -9,13 +9,13 @@ use luch::film::{BEAUTY, COST, DEPTH, Film, Layers};
 use luch::geometry::Sphere;
 use luch::light::{Falloff, Light, LightKind};
 use luch::render::{Progress, Settings, render};
-use luch::sampling::Grid;
 use luch::scene::{Scene, SceneDescription};
 use luch::shade::Shading;
 
 const WITH_COST: Layers = Layers {
     depth: true,
     cost: true,
+    samples: false,
 };
 
 fn settings(samples: u32, shading: Shading) -> Settings {
@@ -79,8 +79,12 @@ fn other_layers_are_the_same_with_and_without_cost() {
     let scene = some_of_everything();
     let with = settings(4, Shading::BlinnPhong);
     let without = |depth| {
-        with.with_layers(Layers { depth, cost: false })
-            .expect("settings")
+        let layers = Layers {
+            depth,
+            cost: false,
+            samples: false,
+        };
+        with.with_layers(layers).expect("settings")
     };
     let with = picture(&scene, &Options::default(), &with);
     let names = |film: &Film| {
@@ -111,11 +115,10 @@ fn cost_without_shadows_and_mirrors_is_that_of_the_camera_ray() {
         };
         let accel = Accel::build(&scene, &options);
         let view = scene.camera().view(48, 36);
-        let grid = Grid::with_samples(1).expect("a grid");
         let mut rays = Vec::new();
         for y in 0..36 {
             for x in 0..48 {
-                let (column, row) = grid.position(x, y, 0);
+                let [column, row] = [x, y].map(|along| f64::from(along) + 0.5);
                 view.primary_rays(&[column], &[row], &mut rays);
             }
         }

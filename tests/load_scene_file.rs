@@ -11,6 +11,7 @@ use luch::light::{Falloff, Light, LightKind};
 use luch::load::scene_file::{open, parse};
 use luch::load::{Asset, CameraSource, Options, PictureDefaults};
 use luch::material::{Alpha, Material, Model, Textured, Transmission, Volume};
+use luch::sampling::{Filter, Pattern};
 use luch::shade::Shading;
 use luch::texture::{Checker, TextureFilter};
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -93,6 +94,9 @@ fn what_is_not_written_has_the_documented_default() {
         width: Some(640),
         height: Some(480),
         samples: Some(1),
+        pattern: Some(Pattern::Grid),
+        filter: Some(Filter::Box),
+        adaptive: Some(false),
         max_depth: Some(5),
         shading: Some(Shading::BlinnPhong),
         texture_filter: Some(TextureFilter::Point),
@@ -137,14 +141,18 @@ fn background_and_ambient_are_black_where_their_tables_are_empty() {
 #[test]
 fn every_key_of_the_picture_is_read() {
     let asset = with(
-        "[render]\nwidth = 320\nheight = 200\nsamples = 25\nmax_depth = 0\nshading = \"phong\"\n\
+        "[render]\nwidth = 320\nheight = 200\nsamples = 26\npattern = \"spread\"\n\
+         filter = \"blackman-harris\"\nadaptive = true\nmax_depth = 0\nshading = \"phong\"\n\
          texture_filter = \"footprint\"\n\
          [background]\ncolor = [0.1, 0.2, 0.3]\n[ambient]\ncolor = [1, 2, 3]",
     );
     let picture = PictureDefaults {
         width: Some(320),
         height: Some(200),
-        samples: Some(25),
+        samples: Some(26),
+        pattern: Some(Pattern::Spread),
+        filter: Some(Filter::BlackmanHarris),
+        adaptive: Some(true),
         max_depth: Some(0),
         shading: Some(Shading::Phong),
         texture_filter: Some(TextureFilter::Footprint),

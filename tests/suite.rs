@@ -1,6 +1,7 @@
 //! Every integration test, in one program: linked once, and what they share is used.
 
 mod accel;
+mod adaptive;
 mod analytic;
 mod answers;
 mod assets;

@@ -2,6 +2,7 @@
 
 use super::animation::AnimationArguments;
 use super::reading::Reading;
+use super::sampling::SamplingArguments;
 use super::study::StudyArguments;
 use super::values::{self, BackgroundValue, DirectionValue, Size, whole_number};
 use clap::builder::NonEmptyStringValueParser;
@@ -9,7 +10,6 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use glam::Vec3;
 use luch::accel::{Builder, Preset};
 use luch::film::Layers;
-use luch::framing::Direction;
 use luch::load::{GroundChoice, LightsChoice};
 use luch::output::{BitDepth, Display, Format};
 use luch::shade::Shading;
@@ -67,7 +67,7 @@ impl Command {
 const RENDER_EXAMPLES: &str = "\
 Examples:
   luch render assets/scenes/figure-4.toml
-  luch render helmet.glb --size 1920x1080 --samples 16 -o helmet.png -o helmet.exr
+  luch render helmet.glb --size 1920x1080 --samples 64 -o helmet.png -o helmet.exr
   luch render room.gltf --camera \"Front door\" --exposure -1
   luch render chair.obj --view left --orbit 20,15 --zoom 1.5
   luch render chair.obj --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
@@ -111,9 +111,13 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = whole_number(0..=u32::MAX))]
     pub(super) height: Option<u32>,
 
-    /// Samples a pixel, a square number [default: the scene file's, or 1; 4 for models]
+    /// Samples a pixel, at most 65536; a square number for the pattern grid; the most, where sampling is adaptive
+    /// [default: the scene file's, or 1; 16 for models]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(0..=u32::MAX))]
     pub(super) samples: Option<u32>,
+
+    #[command(flatten)]
+    pub(super) sampling: SamplingArguments,
 
     /// The most mirror bounces [default: the scene file's, or 5]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(0..=u32::MAX))]
@@ -176,8 +180,8 @@ pub(super) struct RenderArguments {
     pub(super) exposure: Option<f32>,
 
     /// What an EXR holds, with commas between: beauty; Z, the depth, or data, all such layers; cost, the nodes and
-    /// primitives that the rays of each pixel were tested against, of which a PNG gets heat maps beside it [default:
-    /// beauty,data]
+    /// primitives that the rays of each pixel were tested against; samples, how many it got. Of the last two a PNG gets
+    /// heat maps beside it [default: beauty,data]
     #[arg(long, value_name = "NAMES", value_parser = values::layers)]
     pub(super) layers: Option<Layers>,
 

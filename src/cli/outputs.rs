@@ -4,17 +4,17 @@ use super::arguments::{RenderArguments, is_stdout};
 use super::interrupt::Interrupt;
 use super::{Failure, print};
 use luch::Error;
-use luch::film::{COST, Film};
+use luch::film::Film;
 use luch::output::{self, Destination, Format, Options};
-use luch::study::heat_maps;
+use luch::study::heat_maps::Mapped;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Every place that the picture goes to.
 pub(super) struct Outputs {
     files: Vec<Destination>,
-    /// Beside each PNG a heat map of each channel of the cost layer, where that is asked for.
-    heat_maps: Vec<(usize, Destination)>,
+    /// Beside each PNG a heat map of each layer that is no picture, where such are asked for.
+    heat_maps: Vec<(Mapped, Destination)>,
     /// What goes to standard output, if anything does.
     to_stdout: Option<Format>,
 }
@@ -44,14 +44,14 @@ impl Outputs {
         };
         let mut files = Vec::new();
         let mut heat_maps = Vec::new();
-        let cost = arguments.layers.is_some_and(|layers| layers.cost);
+        let maps = Mapped::of(&arguments.layers.unwrap_or_default());
         for path in paths.iter().filter(|path| !is_stdout(path)) {
             let file = interrupt.claim(path).map_err(Failure::output)?;
-            if cost && file.format() == Format::Png {
-                for (channel, name) in COST.channels.iter().enumerate() {
-                    let beside = path.with_extension(format!("{name}.png"));
+            if file.format() == Format::Png {
+                for map in &maps {
+                    let beside = path.with_extension(format!("{}.png", map.name()));
                     let beside = interrupt.claim(&beside).map_err(Failure::output)?;
-                    heat_maps.push((channel, beside));
+                    heat_maps.push((*map, beside));
                 }
             }
             files.push(file);
@@ -91,9 +91,9 @@ impl Outputs {
             destination.write(film, options).map_err(Failure::output)?;
             written.push(path);
         }
-        for (channel, destination) in self.heat_maps {
+        for (map, destination) in self.heat_maps {
             let path = destination.path().to_owned();
-            let Some(png) = heat_maps::of_cost(film, channel) else {
+            let Some(png) = map.png(film) else {
                 continue;
             };
             let png = png.map_err(Error::io(&path, "draw"));

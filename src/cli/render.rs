@@ -127,10 +127,10 @@ fn surrounding(arguments: &RenderArguments) -> (Surrounding, Duration) {
 /// The arguments, where they are silent the file, where that is the defaults.
 fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Failure> {
     let picture = &asset.picture;
-    let (width, height, samples) = if asset.is_scene_file {
-        (640, 480, 1)
+    let (width, height) = if asset.is_scene_file {
+        (640, 480)
     } else {
-        (1280, 720, 4)
+        (1280, 720)
     };
     let size = arguments.size;
     let asked_width = size.map(|Size { width, .. }| width).or(arguments.width);
@@ -138,13 +138,15 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
     let shading = arguments.shading.map(Into::into).or(picture.shading);
     let texture_filter = arguments.texture_filter.map(Into::into);
     let texture_filter = texture_filter.or(picture.texture_filter);
+    let sampling = arguments.sampling.of(arguments.samples, asset);
     Settings::new(
         asked_width.or(picture.width).unwrap_or(width),
         asked_height.or(picture.height).unwrap_or(height),
-        arguments.samples.or(picture.samples).unwrap_or(samples),
+        1,
         arguments.max_depth.or(picture.max_depth).unwrap_or(5),
         shading.unwrap_or_default(),
     )
+    .and_then(|settings| settings.with_sampling(sampling))
     .and_then(|settings| settings.with_layers(arguments.layers.unwrap_or_default()))
     .map(|settings| settings.with_texture_filter(texture_filter.unwrap_or_default()))
     .map_err(|error| {
@@ -154,7 +156,7 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
             arguments.samples,
             arguments.max_depth,
         ];
-        if asked.iter().any(Option::is_some) {
+        if arguments.sampling.is_said() || asked.iter().any(Option::is_some) {
             Failure::usage_or_scene(error)
         } else {
             let problem = error.to_string();

@@ -57,7 +57,10 @@ pub(super) struct Summary {
     outputs: Vec<String>,
     width: u32,
     height: u32,
+    /// The most a pixel.
     samples: u32,
+    /// What pixels got on average.
+    mean_samples: f64,
     display: &'static str,
     exposure: f32,
     choices: Vec<String>,
@@ -138,6 +141,7 @@ impl Summary {
             width: film.width,
             height: film.height,
             samples: done.settings.samples(),
+            mean_samples: mean_samples(film),
             display: done.options.display.name(),
             exposure: done.options.exposure,
             choices: done.choices.lines.clone(),
@@ -191,7 +195,7 @@ impl Summary {
         let mut lines: Vec<String> = self.asks.in_words().into_iter().collect();
         lines.extend([
             format!("{}, {}", self.scene.in_words(), self.bvh.in_words()),
-            self.rays.in_words(),
+            self.rays.in_words(self.mean_samples),
             format!(
                 "load {load:.2} s (textures {textures:.2} s; beside it environment {environment:.2} s), build {build:.2} s, \
                  render {render:.2} s (rays {rays:.2} s, shade {shade:.2} s), write {write:.2} s"
@@ -242,9 +246,10 @@ impl Rays {
         }
     }
 
-    fn in_words(&self) -> String {
+    fn in_words(&self, samples: f64) -> String {
+        let camera = format!("camera ({samples:.1} a pixel)");
         let kinds = [
-            (self.camera, "camera"),
+            (self.camera, camera.as_str()),
             (self.transparent, "behind transparent surfaces"),
             (self.shadow, "shadow"),
             (self.mirror, "mirror"),
@@ -258,6 +263,12 @@ impl Rays {
         let share = self.search_share * 100.0;
         format!("rays: {kinds}; {speed:.1} Mrays/s, {share:.0} % of what search alone reaches")
     }
+}
+
+/// Samples a pixel.
+fn mean_samples(film: &Film) -> f64 {
+    let pixels = f64::from(film.width) * f64::from(film.height);
+    film.statistics.samples() as f64 / pixels
 }
 
 /// The warning about rays that met too many transparent layers, if there are any.

@@ -155,15 +155,17 @@ pub(super) fn layers(text: &str) -> Result<Layers, String> {
     let mut layers = Layers {
         depth: false,
         cost: false,
+        samples: false,
     };
     for name in text.split(',') {
         match name.trim() {
             "beauty" => beauty = true,
             "data" | "Z" => layers.depth = true,
             "cost" => layers.cost = true,
+            "samples" => layers.samples = true,
             other => {
                 return Err(format!(
-                    "there is no layer {other:?}; known are beauty, data, Z and cost, with commas between"
+                    "there is no layer {other:?}; known are beauty, data, Z, cost and samples, with commas between"
                 ));
             }
         }
@@ -211,10 +213,21 @@ pub(super) fn stops(text: &str) -> Result<f32, String> {
 
 /// A display transform by its name.
 pub(super) fn display() -> impl TypedValueParser<Value = Display> {
-    PossibleValuesParser::new(Display::ALL.map(Display::name)).try_map(|name| {
-        let mut all = Display::ALL.into_iter();
-        all.find(|display| display.name() == name)
-            .ok_or("expected the name of a display transform")
+    named("a display transform", Display::ALL, Display::name)
+}
+
+/// One of several by its name.
+pub(super) fn named<T, const N: usize>(
+    what: &'static str,
+    all: [T; N],
+    name_of: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(all.map(name_of)).try_map(move |name| {
+        let found = all.into_iter().find(|&one| name_of(one) == name);
+        found.ok_or_else(|| format!("expected the name of {what}"))
     })
 }
 
@@ -288,18 +301,26 @@ mod tests {
 
     #[test]
     fn layers_are_known_names_and_the_beauty_is_one_of_them() {
-        let asked = |depth, cost| Ok(Layers { depth, cost });
+        let asked = |depth, cost| {
+            let samples = false;
+            Ok(Layers {
+                depth,
+                cost,
+                samples,
+            })
+        };
         assert_eq!(layers("beauty"), asked(false, false));
         assert_eq!(layers("beauty, cost"), asked(false, true));
         assert_eq!(layers("cost,Z,beauty"), asked(true, true));
         assert_eq!(layers("beauty,data"), Ok(Layers::default()));
+        assert!(layers("beauty,samples").is_ok_and(|layers| layers.samples && !layers.depth));
         assert_eq!(
             layers("cost"),
             Err("beauty is in every picture; ask for beauty,cost".into())
         );
         assert_eq!(
             layers("beauty,normals"),
-            Err("there is no layer \"normals\"; known are beauty, data, Z and cost, with commas between".into())
+            Err("there is no layer \"normals\"; known are beauty, data, Z, cost and samples, with commas between".into())
         );
         for wrong in ["", "beauty,", "Beauty", "beauty;cost"] {
             assert!(layers(wrong).is_err(), "{wrong}");

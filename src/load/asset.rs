@@ -12,6 +12,7 @@ use crate::geometry::{Plane, Sphere};
 use crate::light::Light;
 use crate::material::Material;
 use crate::mesh::Mesh;
+use crate::sampling::{Filter, Pattern};
 use crate::scene::{Instance, Object, Scene, SceneDescription};
 use crate::shade::Shading;
 use crate::texture::TextureFilter;
@@ -82,8 +83,14 @@ pub struct PictureDefaults {
     pub width: Option<u32>,
     /// In pixels.
     pub height: Option<u32>,
-    /// A pixel, a square number.
+    /// A pixel.
     pub samples: Option<u32>,
+    /// How they lie.
+    pub pattern: Option<Pattern>,
+    /// How they become a colour.
+    pub filter: Option<Filter>,
+    /// Whether pixels get so many only where they differ.
+    pub adaptive: Option<bool>,
     /// Mirror bounces.
     pub max_depth: Option<u32>,
     /// The shading model.

@@ -1,16 +1,19 @@
 //! What a picture should be like, checked once.
 
+use super::record::Record;
 use crate::film::Layers;
-use crate::sampling::Grid;
+use crate::sampling::{BASE, Grid, MAX_SAMPLES, Pattern, Sampling};
+use crate::scene::Scene;
 use crate::shade::Shading;
 use crate::texture::TextureFilter;
+use crate::whitted::Counts;
 
 /// What a picture should be like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
     pub(super) width: u32,
     pub(super) height: u32,
-    pub(super) grid: Grid,
+    pub(super) sampling: Sampling,
     pub(super) max_depth: u32,
     pub(super) shading: Shading,
     pub(super) tile_side: u32,
@@ -53,6 +56,12 @@ pub enum SettingsError {
         /// The nearest square number above.
         above: u32,
     },
+    /// No samples, or too many.
+    #[error("{samples} samples a pixel cannot be; use 1 to {MAX_SAMPLES}")]
+    NoSamples {
+        /// As asked.
+        samples: u32,
+    },
     /// More mirror bounces than could ever matter.
     #[error("a depth of {max_depth} mirror bounces is above the limit of {MAX_DEPTH}")]
     TooDeep {
@@ -65,14 +74,12 @@ pub enum SettingsError {
 pub(super) const MAX_FILM_BYTES: u64 = 4 << 30;
 /// The most mirror bounces that can be asked for.
 pub(super) const MAX_DEPTH: u32 = 10_000;
-/// The most samples a pixel, 256 x 256.
-const MAX_SAMPLES: u32 = 65_536;
 /// Tiles of this side are one batch of rays, large enough for packets of 64.
 const TILE_SIDE: u32 = 8;
 
 impl Settings {
-    /// A picture of `width x height` pixels with `samples` (a square number) a pixel and at most `max_depth` mirror
-    /// bounces.
+    /// A picture of `width x height` pixels with `samples` (a square number) a pixel, the paper's grid, and at most
+    /// `max_depth` mirror bounces.
     ///
     /// # Errors
     ///
@@ -88,30 +95,48 @@ impl Settings {
         if width == 0 || height == 0 {
             return Err(SettingsError::NoPixels { width, height });
         }
-        let layers = Layers::default();
-        check_bytes(width, height, &layers)?;
-        if max_depth > MAX_DEPTH {
-            return Err(SettingsError::TooDeep { max_depth });
-        }
-        let grid = Grid::with_samples(samples).ok_or_else(|| {
-            let side = samples.min(MAX_SAMPLES).isqrt().max(1);
-            let above = ((side + 1) * (side + 1)).min(MAX_SAMPLES);
-            SettingsError::NotSquare {
-                samples,
-                below: side * side,
-                above,
-            }
-        })?;
-        Ok(Settings {
+        let settings = Settings {
             width,
             height,
-            grid,
+            sampling: Sampling::grid(1),
             max_depth,
             shading,
             tile_side: TILE_SIDE,
-            layers,
+            layers: Layers::default(),
             texture_filter: TextureFilter::default(),
-        })
+        };
+        settings.check_bytes()?;
+        if max_depth > MAX_DEPTH {
+            return Err(SettingsError::TooDeep { max_depth });
+        }
+        settings.with_sampling(Sampling::grid(samples))
+    }
+
+    /// The same picture of other samples.
+    ///
+    /// # Errors
+    ///
+    /// None of them, more than 65,536, a grid of no square number; more than 4 GiB of pixels.
+    pub fn with_sampling(self, sampling: Sampling) -> Result<Settings, SettingsError> {
+        let samples = sampling.samples;
+        match sampling.pattern {
+            Pattern::Grid if Grid::with_samples(samples).is_none() => {
+                let side = samples.min(MAX_SAMPLES).isqrt().max(1);
+                let above = ((side + 1) * (side + 1)).min(MAX_SAMPLES);
+                return Err(SettingsError::NotSquare {
+                    samples,
+                    below: side * side,
+                    above,
+                });
+            }
+            _ if samples == 0 || samples > MAX_SAMPLES => {
+                return Err(SettingsError::NoSamples { samples });
+            }
+            _ => {}
+        }
+        let settings = Settings { sampling, ..self };
+        settings.check_bytes()?;
+        Ok(settings)
     }
 
     /// The same picture with these layers.
@@ -120,8 +145,9 @@ impl Settings {
     ///
     /// More than 4 GiB of pixels.
     pub fn with_layers(self, layers: Layers) -> Result<Settings, SettingsError> {
-        check_bytes(self.width, self.height, &layers)?;
-        Ok(Settings { layers, ..self })
+        let settings = Settings { layers, ..self };
+        settings.check_bytes()?;
+        Ok(settings)
     }
 
     /// The same picture, rendered in tiles of `side` pixels (at least 1): no pixel depends on it.
@@ -140,9 +166,44 @@ impl Settings {
         }
     }
 
-    /// What a film takes, in bytes.
+    /// Makes ready what a render of `scene` will look up: [`super::render`] does it by itself; who calls it before has
+    /// something else done meanwhile.
+    pub fn prepare(&self, scene: &Scene) {
+        if self.texture_filter == TextureFilter::Footprint {
+            scene.prepare_textures();
+        }
+    }
+
+    /// What a film takes while it is rendered, in bytes.
     pub fn film_bytes(&self) -> u64 {
-        film_bytes(self.width, self.height, &self.layers)
+        let layers = self.layers.list();
+        let channels: usize = layers.iter().map(|layer| layer.channels.len()).sum();
+        let mut bytes = channels * size_of::<f32>();
+        if self.is_adaptive() {
+            bytes += size_of::<Record>();
+            bytes += usize::from(self.layers.cost) * size_of::<Counts>();
+        }
+        u64::from(self.width)
+            .saturating_mul(u64::from(self.height))
+            .saturating_mul(bytes as u64)
+    }
+
+    /// Finds whether that is too much.
+    fn check_bytes(&self) -> Result<(), SettingsError> {
+        let bytes = self.film_bytes();
+        if bytes > MAX_FILM_BYTES {
+            return Err(SettingsError::TooLarge {
+                width: self.width,
+                height: self.height,
+                bytes,
+            });
+        }
+        Ok(())
+    }
+
+    /// Whether some pixels can get more samples than others.
+    pub fn is_adaptive(&self) -> bool {
+        self.sampling.adaptive && self.sampling.samples > BASE
     }
 
     /// In pixels.
@@ -155,33 +216,15 @@ impl Settings {
         self.height
     }
 
-    /// A pixel.
+    /// A pixel; the most, where sampling is adaptive.
     pub fn samples(&self) -> u32 {
-        self.grid.samples()
+        self.sampling.samples
     }
-}
 
-fn film_bytes(width: u32, height: u32, layers: &Layers) -> u64 {
-    let channels = layers
-        .list()
-        .into_iter()
-        .map(|layer| layer.channels.len() as u64);
-    u64::from(width)
-        .saturating_mul(u64::from(height))
-        .saturating_mul(channels.sum::<u64>() * 4)
-}
-
-/// Finds whether a film would take too much memory.
-fn check_bytes(width: u32, height: u32, layers: &Layers) -> Result<(), SettingsError> {
-    let bytes = film_bytes(width, height, layers);
-    if bytes > MAX_FILM_BYTES {
-        return Err(SettingsError::TooLarge {
-            width,
-            height,
-            bytes,
-        });
+    /// The samples of a pixel.
+    pub fn sampling(&self) -> Sampling {
+        self.sampling
     }
-    Ok(())
 }
 
 #[cfg(test)]

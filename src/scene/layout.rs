@@ -89,6 +89,17 @@ impl Scene {
         }
     }
 
+    /// The number of the object that a primitive is of: spheres first, then planes, then instances.
+    #[inline]
+    pub fn object_of(&self, primitive: u32, recent: &mut Recent) -> u32 {
+        match self.primitive_near(primitive, recent) {
+            Primitive::Sphere(_) | Primitive::Plane(_) => primitive,
+            Primitive::Triangle { instance, .. } => {
+                (self.spheres.len() + self.planes.len() + instance) as u32
+            }
+        }
+    }
+
     /// A triangle in the space of its mesh.
     pub fn triangle(&self, instance: usize, triangle: u32) -> Triangle {
         self.mesh(self.instances[instance].mesh).triangle(triangle)

@@ -6,7 +6,7 @@ use super::plan::Plan;
 use super::report::Picture;
 use super::run::Pools;
 use super::stage::Stage;
-use crate::film::{COST, Film, Layers};
+use crate::film::{COST, Film, Layers, SAMPLES};
 use crate::render::{Progress, render};
 use std::io;
 
@@ -58,11 +58,46 @@ fn tests(film: &Film, channel: usize) -> Option<Vec<f32>> {
     )
 }
 
-/// A PNG of one channel of a film's [`COST`], over a scale of its own; `None` where it has no such layer.
-pub fn of_cost(film: &Film, channel: usize) -> Option<io::Result<Vec<u8>>> {
-    let (values, what) = (tests(film, channel)?, COST.channels.get(channel)?);
-    let (title, greatest) = (format!("{what} tested a sample"), most_of(values.clone()));
-    Some(heat_map(&values, film.width, film.height, &title, greatest))
+/// What a film's layers can be mapped to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mapped {
+    /// A channel of [`COST`].
+    Tests(usize),
+    /// [`SAMPLES`].
+    Samples,
+}
+
+impl Mapped {
+    /// The maps of a film that has these layers.
+    pub fn of(layers: &Layers) -> Vec<Mapped> {
+        let tests = (0..COST.channels.len()).map(Mapped::Tests);
+        let tests = tests.filter(|_| layers.cost);
+        tests
+            .chain(layers.samples.then_some(Mapped::Samples))
+            .collect()
+    }
+
+    /// One word, for the names of files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Mapped::Tests(channel) => COST.channels.get(channel).copied().unwrap_or(COST.name),
+            Mapped::Samples => SAMPLES.name,
+        }
+    }
+
+    /// A PNG of it, over a scale of its own; `None` where the film has no such layer.
+    pub fn png(self, film: &Film) -> Option<io::Result<Vec<u8>>> {
+        let name = self.name();
+        let (values, title) = match self {
+            Mapped::Tests(channel) => (tests(film, channel)?, format!("{name} tested a sample")),
+            Mapped::Samples => {
+                let layer = film.layer(SAMPLES.channels)?;
+                (layer.values.clone(), format!("{name} a pixel"))
+            }
+        };
+        let greatest = most_of(values.clone());
+        Some(heat_map(&values, film.width, film.height, &title, greatest))
+    }
 }
 
 /// The maps as pictures, those of one count side by side over one scale.

@@ -105,9 +105,6 @@ fn findings(results: &Results) -> Vec<String> {
             "From {a} to {b} samples the error against {ERROR_AGAINST} falls from {from:.4} to {to:.4} of a display's range."
         ));
     }
-    lines.push(
-        "Adaptive supersampling is not there yet: its rows will stand here when it is.".into(),
-    );
     lines
 }
 

@@ -146,7 +146,7 @@ fn a_bad_value_is_told_what_is_expected() {
         (
             "layers <NAMES>",
             "beauty,fog",
-            "there is no layer \"fog\"; known are beauty, data, Z and cost, with commas between",
+            "there is no layer \"fog\"; known are beauty, data, Z, cost and samples, with commas between",
         ),
         (
             "background <#RRGGBB|transparent>",
@@ -211,6 +211,10 @@ fn a_picture_that_cannot_be_is_refused_before_anything_is_rendered() {
         (
             &["--samples", "5"],
             "5 samples a pixel do not make a square grid; use 4 or 9",
+        ),
+        (
+            &["--pattern", "spread", "--samples", "65537"],
+            "65537 samples a pixel cannot be; use 1 to 65536",
         ),
         (
             &["--max-depth", "10001"],

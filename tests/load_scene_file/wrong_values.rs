@@ -173,6 +173,21 @@ fn a_value_out_of_range_is_told_with_its_key_and_line() {
             "samples in [render] is 4294967295, expected a square number up to 65536, such as 65536",
         ),
         (
+            "[render]\npattern = \"spread\"\nsamples = 65537",
+            3,
+            "samples in [render] is 65537, expected a whole number from 1 to 65536",
+        ),
+        (
+            "[render]\nfilter = \"gauss\"",
+            2,
+            "filter in [render] is \"gauss\", expected \"box\", \"blackman-harris\", \"gaussian\" or \"mitchell\"; did you mean \"gaussian\"?",
+        ),
+        (
+            "[render]\nadaptive = 1",
+            2,
+            "adaptive in [render] is 1, expected true or false",
+        ),
+        (
             "[render]\nshading = \"blin-phong\"",
             2,
             "shading in [render] is \"blin-phong\", expected \"blinn-phong\", \"phong\", \"lambert\" or \"flat\"; did you mean \"blinn-phong\"?",

@@ -1,11 +1,11 @@
 //! `[render]`, `[background]`, `[ambient]`.
 
-use super::kind::{COLOR, COUNT, COUNT_ABOVE_ZERO};
+use super::kind::{COLOR, COUNT, COUNT_ABOVE_ZERO, TRUE_OR_FALSE};
 use super::table::{Schema, Table};
 use crate::Error;
 use crate::color::Rgb;
 use crate::load::PictureDefaults;
-use crate::sampling::Grid;
+use crate::sampling::{Filter, Grid, MAX_SAMPLES, Pattern};
 use crate::shade::Shading;
 use crate::texture::TextureFilter;
 
@@ -16,6 +16,9 @@ const RENDER: Schema = Schema {
         "width",
         "height",
         "samples",
+        "pattern",
+        "filter",
+        "adaptive",
         "max_depth",
         "shading",
         "texture_filter",
@@ -54,6 +57,9 @@ pub(super) fn read(root: &Table<'_>) -> Result<PictureDefaults, Error> {
         width: Some(640),
         height: Some(480),
         samples: Some(1),
+        pattern: Some(Pattern::Grid),
+        filter: Some(Filter::Box),
+        adaptive: Some(false),
         max_depth: Some(5),
         shading: Some(Shading::BlinnPhong),
         // The paper's checkerboards are of points.
@@ -73,9 +79,22 @@ pub(super) fn read(root: &Table<'_>) -> Result<PictureDefaults, Error> {
     picture.texture_filter = render
         .choice("texture_filter", &TEXTURE_FILTERS)?
         .or(picture.texture_filter);
+    picture.filter = render
+        .choice("filter", &Filter::ALL.map(|one| (one.name(), one)))?
+        .or(picture.filter);
+    picture.adaptive = render
+        .optional("adaptive", &TRUE_OR_FALSE)?
+        .or(picture.adaptive);
+    let pattern = render
+        .choice("pattern", &Pattern::ALL.map(|one| (one.name(), one)))?
+        .unwrap_or_default();
+    picture.pattern = Some(pattern);
     if let Some(samples) = render.optional("samples", &COUNT)? {
-        if Grid::with_samples(samples).is_none() {
+        if pattern == Pattern::Grid && Grid::with_samples(samples).is_none() {
             return Err(render.wrong("samples", &nearest_squares(samples)));
+        }
+        if !(1..=MAX_SAMPLES).contains(&samples) {
+            return Err(render.wrong("samples", "a whole number from 1 to 65536"));
         }
         picture.samples = Some(samples);
     }

@@ -1,0 +1,182 @@
+//! From tiles to samples, a batch of rays at a time.
+
+use super::known::Known;
+use super::record::Record;
+use super::tile::Tile;
+use super::{Rendering, Settings};
+use crate::ray::Ray;
+use crate::sampling::BASE;
+use crate::whitted::{Counts, Rules, Sample, Tracer};
+use std::time::Instant;
+
+/// Some pixels, and what is known of them.
+#[derive(Debug, Default)]
+pub(super) struct Pixels {
+    /// Column and row.
+    pub(super) places: Vec<[u32; 2]>,
+    pub(super) records: Vec<Record>,
+    /// What their rays were tested against; empty unless somebody wants to know.
+    pub(super) counts: Vec<Counts>,
+}
+
+/// Who renders tile after tile, in the same memory.
+pub(super) struct Painter<'a> {
+    rendering: &'a Rendering<'a>,
+    pub(super) tracer: Tracer<'a>,
+    columns: Vec<f64>,
+    rows: Vec<f64>,
+    positions: Vec<[f64; 2]>,
+    rays: Vec<Ray>,
+    samples: Vec<Sample>,
+    /// The last tile's.
+    pub(super) pixels: Pixels,
+    /// Those of its pixels that get more samples, by their index.
+    active: Vec<usize>,
+}
+
+impl<'a> Painter<'a> {
+    pub(super) fn new(rendering: &'a Rendering<'a>, rules: Rules) -> Painter<'a> {
+        Painter {
+            rendering,
+            tracer: Tracer::new(rendering.scene, rendering.accel, rules),
+            columns: Vec::new(),
+            rows: Vec::new(),
+            positions: Vec::new(),
+            rays: Vec::new(),
+            samples: Vec::new(),
+            pixels: Pixels::default(),
+            active: Vec::new(),
+        }
+    }
+
+    /// Renders the samples that every pixel of a tile gets: of each sample a batch of rays for all of it.
+    pub(super) fn paint(&mut self, tile: &Tile, watched: bool) {
+        let start = Instant::now();
+        self.tracer.watched = watched;
+        let Pixels {
+            places, records, ..
+        } = &mut self.pixels;
+        places.clear();
+        places.extend(tile.pixels());
+        records.clear();
+        records.resize(places.len(), Record::EMPTY);
+        self.count_costs(self.pixels.places.len());
+        let rendering = self.rendering;
+        let all = rendering.stops.first().copied().unwrap_or(0);
+        for (number, offset) in (0..all).zip(&rendering.offsets) {
+            self.columns.clear();
+            let columns = tile.left..tile.left + tile.width;
+            self.columns
+                .extend(columns.map(|i| f64::from(i) + offset.x));
+            self.rows.clear();
+            let rows = tile.top..tile.top + tile.height;
+            self.rows.extend(rows.map(|j| f64::from(j) + offset.y));
+            self.rays.clear();
+            let view = &rendering.view;
+            view.primary_rays(&self.columns, &self.rows, &mut self.rays);
+            self.trace(number);
+            for (record, sample) in self.pixels.records.iter_mut().zip(&self.samples) {
+                record.add(sample, offset.weight);
+                if rendering.is_adaptive {
+                    record.compare(sample);
+                }
+            }
+        }
+        self.pixels.counts.clear();
+        let counts = self.tracer.counts.iter().flatten();
+        self.pixels.counts.extend(counts);
+        if watched {
+            self.tracer.statistics.watched += start.elapsed();
+        }
+    }
+
+    /// Adds samples to those pixels of a tile that need them, until these do not: of each sample a batch of rays for all
+    /// that still do.
+    pub(super) fn refine(&mut self, tile: &Tile, known: &Known, watched: bool) {
+        let start = Instant::now();
+        self.tracer.watched = watched;
+        self.choose(tile, known);
+        let rendering = self.rendering;
+        for stop in rendering.stops.windows(2) {
+            let &[from, to] = stop else { continue };
+            if from > BASE {
+                let records = &self.pixels.records;
+                self.active.retain(|&index| records[index].needs_more());
+            }
+            if self.active.is_empty() {
+                break;
+            }
+            self.count_costs(self.active.len());
+            let offsets = rendering.offsets.iter();
+            let numbered = (0..).zip(offsets).skip(from as usize);
+            for (number, offset) in numbered.take((to - from) as usize) {
+                self.positions.clear();
+                self.positions.extend(self.active.iter().map(|&index| {
+                    let [i, j] = self.pixels.places[index].map(f64::from);
+                    [i + offset.x, j + offset.y]
+                }));
+                self.rays.clear();
+                rendering
+                    .view
+                    .primary_rays_at(&self.positions, &mut self.rays);
+                self.trace(number);
+                for (&index, sample) in self.active.iter().zip(&self.samples) {
+                    let record = &mut self.pixels.records[index];
+                    record.add(sample, offset.weight);
+                    record.compare(sample);
+                }
+            }
+            let counts = self.tracer.counts.iter().flatten();
+            for (&index, count) in self.active.iter().zip(counts) {
+                let counts = &mut self.pixels.counts[index];
+                counts.nodes += count.nodes;
+                counts.primitives += count.primitives;
+            }
+        }
+        if watched {
+            self.tracer.statistics.watched += start.elapsed();
+        }
+    }
+
+    /// Takes up those pixels of a tile whose samples, or those of a neighbour, say that something ends there; tile by
+    /// small tile, since rays that lie together are searched for together.
+    fn choose(&mut self, tile: &Tile, known: &Known) {
+        let Pixels {
+            places,
+            records,
+            counts,
+        } = &mut self.pixels;
+        places.clear();
+        records.clear();
+        counts.clear();
+        let Settings {
+            width,
+            height,
+            tile_side,
+            ..
+        } = *self.rendering.settings;
+        for [i, j] in tile.tiles(tile_side).flat_map(Tile::pixels) {
+            if !known.needs_more([width, height], [i, j]) {
+                continue;
+            }
+            let index = j as usize * width as usize + i as usize;
+            places.push([i, j]);
+            records.extend(known.records.get(index));
+            counts.extend(known.counts.get(index));
+        }
+        self.active.clear();
+        self.active.extend(0..places.len());
+    }
+
+    /// Starts to count what the next batches of rays are tested against, if somebody wants to know.
+    fn count_costs(&mut self, pixels: usize) {
+        let wanted = self.rendering.settings.layers.cost;
+        self.tracer.counts = wanted.then(|| vec![Counts::default(); pixels]);
+    }
+
+    /// Follows the rays of sample number `number` of some pixels.
+    fn trace(&mut self, number: u32) {
+        let (view, rays) = (&self.rendering.view, &self.rays);
+        self.tracer.trace(view, number, rays, &mut self.samples);
+    }
+}

@@ -1,0 +1,122 @@
+//! What is known of a pixel after some of its samples.
+
+use crate::color::Rgb;
+use crate::sampling::{BASE, Filter};
+use crate::whitted::{NO_OBJECT, Sample};
+use glam::Vec3;
+
+/// Samples of one pixel, added up, and how much they differ.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Record {
+    /// Sums, each sample by its weight.
+    color: Rgb,
+    alpha: f32,
+    /// The nearest.
+    pub(super) depth: f32,
+    pub(super) samples: u32,
+    /// The least and the greatest of [`seen`].
+    least: [u8; 4],
+    greatest: [u8; 4],
+    /// The first sample's.
+    object: u32,
+    /// The first sample's, times 127.
+    normal: [i8; 3],
+    /// Whether another sample's object or normal is not the first one's.
+    torn: bool,
+}
+
+/// Of `cos(15°)`: normals further apart than that are those of different sides.
+const SAME_SIDE: f32 = 0.965_925_8;
+
+impl Record {
+    pub(super) const EMPTY: Record = Record {
+        color: Rgb::BLACK,
+        alpha: 0.0,
+        depth: f32::INFINITY,
+        samples: 0,
+        least: [u8::MAX; 4],
+        greatest: [0; 4],
+        object: NO_OBJECT,
+        normal: [0; 3],
+        torn: false,
+    };
+
+    /// Light is summed (and becomes a mean), depth is the nearest.
+    pub(super) fn add(&mut self, sample: &Sample, weight: f32) {
+        self.color += sample.color * weight;
+        self.alpha += sample.alpha * weight;
+        self.depth = self.depth.min(sample.depth);
+        self.samples += 1;
+    }
+
+    /// Takes note of how a sample differs from those before; `add` comes first.
+    pub(super) fn compare(&mut self, sample: &Sample) {
+        for (channel, value) in seen(sample).into_iter().enumerate() {
+            self.least[channel] = self.least[channel].min(value);
+            self.greatest[channel] = self.greatest[channel].max(value);
+        }
+        let normal = sample.normal.to_array().map(|along| (along * 127.0) as i8);
+        if self.samples == 1 {
+            (self.object, self.normal) = (sample.object, normal);
+        }
+        self.torn |= self.object != sample.object || !same_side(self.normal, normal);
+    }
+
+    /// Whether one sample more, like one of those that the pixel has, could change it by more than 1/256 of what can be
+    /// seen; and where few samples see several things, whatever their light.
+    pub(super) fn needs_more(&self) -> bool {
+        self.torn && self.samples <= BASE || differ(&self.least, &self.greatest, self.samples)
+    }
+
+    /// Whether something ends between this pixel and another: objects, sides, or light differ.
+    pub(super) fn differs_from(&self, other: &Record) -> bool {
+        let least = std::array::from_fn(|i| self.least[i].min(other.least[i]));
+        let greatest = std::array::from_fn(|i| self.greatest[i].max(other.greatest[i]));
+        self.object != other.object
+            || !same_side(self.normal, other.normal)
+            || differ(&least, &greatest, self.samples)
+    }
+
+    /// The mean colour, premultiplied, and alpha, where the filter's weights of the samples add to `weight`.
+    pub(super) fn mean(&self, weight: f32, filter: Filter) -> [f32; 4] {
+        let share = 1.0 / weight;
+        let Rgb { r, g, b } = self.color * share;
+        let mean = [r, g, b, self.alpha * share];
+        if !filter.has_negative_lobes() {
+            return mean;
+        }
+        // What rings beyond black and beyond opaque is nothing that a file should hold.
+        let [r, g, b, alpha] = mean.map(|value| value.max(0.0));
+        [r, g, b, alpha.min(1.0)]
+    }
+}
+
+/// What of a sample meets the eye, in 256 steps: its colour as a display may show it, whatever the exposure: half of the
+/// steps are for what is darker than 1/3.
+fn seen(sample: &Sample) -> [u8; 4] {
+    let Rgb { r, g, b } = sample.color;
+    // No number counts as nothing.
+    let shown = |light: f32| {
+        let light = light.clamp(0.0, 1e9);
+        ((light / (1.0 + light)).sqrt() * 255.0 + 0.5) as u8
+    };
+    let alpha = (sample.alpha.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+    [shown(r), shown(g), shown(b), alpha]
+}
+
+/// Whether channels differ by more than one step a sample.
+fn differ(least: &[u8; 4], greatest: &[u8; 4], samples: u32) -> bool {
+    let channels = least.iter().zip(greatest);
+    let mut spreads = channels.map(|(least, greatest)| greatest.saturating_sub(*least));
+    spreads.any(|spread| u32::from(spread) > samples)
+}
+
+/// Whether normals are less than 15 degrees apart, or one is missing.
+fn same_side(a: [i8; 3], b: [i8; 3]) -> bool {
+    if a == b {
+        return true;
+    }
+    let [a, b] = [a, b].map(|n| Vec3::from_array(n.map(f32::from)));
+    let lengths = (a.length_squared() * b.length_squared()).sqrt();
+    a.dot(b) >= SAME_SIDE * lengths
+}
