@@ -6,6 +6,7 @@ mod answers;
 mod assets;
 mod cli;
 mod common;
+mod environment;
 mod finish;
 mod golden;
 #[cfg(unix)]

@@ -94,9 +94,10 @@ impl Sun {
 
     /// Adds the sun's light to the pixels about its place: as much as there is, however large they are.
     fn shine(&self, picture: &mut Equirect) {
+        let cos_edge = libm::cos(SUN_RADIUS);
         let near = Equirect::of(WIDTH, HEIGHT, |d| {
             let cos = d.as_dvec3().dot(self.direction);
-            let inside = (cos - libm::cos(SUN_RADIUS)) / (1.0 - libm::cos(SUN_RADIUS));
+            let inside = (cos - cos_edge) / (1.0 - cos_edge);
             Rgb::grey(if d.y > 0.0 {
                 inside.max(0.0) as f32
             } else {

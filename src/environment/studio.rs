@@ -27,7 +27,7 @@ const BOXES: [SoftBox; 3] = [
     SoftBox {
         azimuth: -22.0,
         elevation: 46.0,
-        half_size: [0.46, 0.36],
+        half_size: [0.42, 0.33],
         corner: 0.07,
         radiance: 6.0,
     },
@@ -35,7 +35,7 @@ const BOXES: [SoftBox; 3] = [
     SoftBox {
         azimuth: 108.0,
         elevation: 20.0,
-        half_size: [0.22, 0.50],
+        half_size: [0.20, 0.48],
         corner: 0.05,
         radiance: 3.5,
     },
@@ -66,10 +66,12 @@ pub fn studio() -> Equirect {
 /// What the room itself sends: a floor that the lights fall on, walls that they hardly reach, a dark ceiling. The floor
 /// bends up into the wall, without an edge.
 fn room(d: Vec3) -> f32 {
-    let floor = smooth(0.12, -0.45, d.y);
-    let ceiling = smooth(0.15, 0.85, d.y);
-    let walls = 0.20 + 0.06 * d.dot(Vec3::new(-0.3, 0.0, 0.95));
-    walls + (0.40 - walls) * floor + (0.07 - walls) * ceiling
+    let toward_key = d.dot(Vec3::new(-0.3, 0.0, 0.95));
+    let (floor, ceiling) = (0.43 + 0.10 * toward_key, 0.05);
+    let walls = 0.17 + 0.07 * toward_key;
+    let floor_share = smooth(0.06, -0.40, d.y);
+    let ceiling_share = smooth(0.15, 0.85, d.y);
+    walls + (floor - walls) * floor_share + (ceiling - walls) * ceiling_share
 }
 
 /// 0 at `from`, 1 at `to` and beyond, without a bend (Hermite's cubic).
