@@ -165,6 +165,7 @@ fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Result<Viewpoi
             .background
             .map(|BackgroundValue(background)| background),
         exposure: arguments.exposure,
+        environment: arguments.environment.choice()?,
     })
 }
 

@@ -1,5 +1,6 @@
 //! What a file holds, before a choice of camera and time makes a scene of it.
 
+use super::environment::EnvironmentChoice;
 use super::pose::{Pose, PosedMeshes};
 use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
 use super::{Budget, Model, Warnings};
@@ -39,6 +40,8 @@ pub struct Asset {
     pub background: Option<Rgb>,
     /// The ambient light, where the file says it.
     pub ambient: Option<Rgb>,
+    /// What the file says of the light from all around.
+    pub environment: EnvironmentChoice,
     /// What the file says of the picture.
     pub picture: PictureDefaults,
     /// What was ignored or mended, those of the models included.
@@ -210,6 +213,7 @@ impl Asset {
             camera: None,
             background: None,
             ambient: None,
+            environment: EnvironmentChoice::default(),
             picture: PictureDefaults::default(),
             budget,
         }

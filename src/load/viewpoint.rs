@@ -11,6 +11,7 @@ use faces::faces;
 pub(super) use lights::{carried, light};
 
 use super::Asset;
+use super::environment::EnvironmentChoice;
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::scene::{Background, Shown};
@@ -28,6 +29,8 @@ pub struct Viewpoint {
     pub background: Option<Background>,
     /// Stops by which a display will change the picture; what suits the file's lights where it is `None`.
     pub exposure: Option<f32>,
+    /// The light from all around; what the file says of it where this is silent.
+    pub environment: EnvironmentChoice,
 }
 
 impl Viewpoint {
@@ -39,6 +42,7 @@ impl Viewpoint {
             fov_y: None,
             background: None,
             exposure: None,
+            environment: EnvironmentChoice::default(),
         }
     }
 }
