@@ -10,8 +10,9 @@ use std::str::FromStr;
 /// The options about light from all around.
 #[derive(Args, Debug)]
 pub(super) struct EnvironmentArguments {
-    /// What lights the scene from all around: studio, sky, none, a display colour, or an equirectangular picture
-    #[arg(long, value_name = "studio|sky|none|#RRGGBB|FILE.hdr|FILE.exr")]
+    /// What lights the scene from all around: studio, sky, none, a display colour, or an equirectangular .hdr
+    /// or .exr picture
+    #[arg(long, value_name = "studio|sky|none|#RRGGBB|FILE")]
     pub(super) environment: Option<EnvironmentValue>,
 
     /// Turns the environment about +Y: 90 turns what was at +Z to +X

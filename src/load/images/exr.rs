@@ -137,3 +137,79 @@ fn channels(mut list: &[u8]) -> usize {
     }
     count
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+    use super::*;
+    use image::codecs::openexr::OpenExrEncoder;
+    use image::{ExtendedColorType, ImageEncoder};
+
+    const PIXELS: [[f32; 3]; 2] = [[0.25, 1e6, -1.0], [0.0, f32::INFINITY, 3.0]];
+
+    fn file() -> Vec<u8> {
+        let raw: Vec<u8> = PIXELS
+            .iter()
+            .flatten()
+            .flat_map(|value| value.to_ne_bytes())
+            .collect();
+        let mut file = Cursor::new(Vec::new());
+        let encoder = OpenExrEncoder::new(&mut file);
+        encoder
+            .write_image(&raw, 2, 1, ExtendedColorType::Rgb32F)
+            .unwrap();
+        file.into_inner()
+    }
+
+    #[test]
+    fn a_picture_is_known_before_it_is_read_and_read_as_it_was() {
+        let found = header(&file()).unwrap();
+        assert_eq!((found.width, found.height, found.channels), (2, 1, 3));
+        let expected = PIXELS.map(Rgb::from).to_vec();
+        assert_eq!(decode(&file()), Ok((2, 1, expected)));
+    }
+
+    #[test]
+    fn a_picture_cut_short_is_an_error_wherever_that_is() {
+        let file = file();
+        for length in MAGIC.len()..file.len() {
+            let cut = file.get(..length).unwrap();
+            assert!(header(cut).is_err() || decode(cut).is_err(), "{length}");
+        }
+    }
+
+    #[test]
+    fn a_picture_with_any_byte_wrong_is_read_or_refused() {
+        let file = file();
+        for at in MAGIC.len()..file.len() {
+            for wrong in [0, 1, 0x7f, 0xff] {
+                let mut file = file.clone();
+                *file.get_mut(at).unwrap() = wrong;
+                // As whoever opens a file does: what is too great is not decoded.
+                if header(&file).is_ok_and(|header| header.bytes_to_decode() < 1 << 20) {
+                    let _ = decode(&file);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_window_without_end_is_an_error() {
+        let mut file = file();
+        let at = file
+            .windows(11)
+            .position(|name| name == b"dataWindow\0")
+            .unwrap();
+        // The name, the type, the length; then the corner at the right.
+        let right = at + 11 + 6 + 4 + 8;
+        file.get_mut(right..right + 4)
+            .unwrap()
+            .copy_from_slice(&i32::MAX.to_le_bytes());
+        let problem = header(&file).unwrap_err();
+        assert!(
+            problem.starts_with("has a window from and to [0, 0, 2147483647, 0]"),
+            "{problem}"
+        );
+    }
+}

@@ -174,3 +174,93 @@ fn radiance([r, g, b, exponent]: [u8; 4]) -> Rgb {
     let scale = libm::ldexpf(1.0, i32::from(exponent) - 136);
     Rgb::from([r, g, b].map(|mantissa| (f32::from(mantissa) + 0.5) * scale))
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+    use super::*;
+
+    /// A file of these rows, after this line of sizes.
+    fn file(size: &str, rows: &[&[u8]]) -> Vec<u8> {
+        let header =
+            format!("#?RADIANCE\n# by hand\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n{size}\n");
+        [header.as_bytes(), &rows.concat()].concat()
+    }
+
+    fn read(file: &[u8]) -> Result<Vec<Rgb>, String> {
+        decode(file, &header(file)?)
+    }
+
+    /// Pixels of one half, by the exponent of 1.
+    fn greys(mantissas: &[u8]) -> Vec<Rgb> {
+        mantissas
+            .iter()
+            .map(|&mantissa| Rgb::grey((f32::from(mantissa) + 0.5) / 128.0))
+            .collect()
+    }
+
+    #[test]
+    fn pixels_one_by_one_with_and_without_runs() {
+        let plain = file("-Y 1 +X 3", &[&[7, 7, 7, 129, 9, 9, 9, 129, 3, 3, 3, 0]]);
+        let black = vec![Rgb::BLACK];
+        assert_eq!(read(&plain), Ok([greys(&[7, 9]), black].concat()));
+        let run = file("-Y 1 +X 4", &[&[7, 7, 7, 129, 1, 1, 1, 2, 9, 9, 9, 129]]);
+        assert_eq!(read(&run), Ok(greys(&[7, 7, 7, 9])));
+        let long = [&[7, 7, 7, 129, 1, 1, 1, 4, 1, 1, 1, 1][..]];
+        assert_eq!(read(&file("-Y 1 +X 261", &long)), Ok(greys(&[7; 261])));
+    }
+
+    #[test]
+    fn runs_by_component() {
+        let component: &[u8] = &[128 + 5, 6, 3, 7, 8, 9];
+        let row = [
+            &[2, 2, 0, 8],
+            component,
+            component,
+            component,
+            &[128 + 8, 129],
+        ]
+        .concat();
+        let expected = greys(&[6, 6, 6, 6, 6, 7, 8, 9]);
+        assert_eq!(read(&file("-Y 1 +X 8", &[&row])), Ok(expected.clone()));
+        let mut mirrored = expected;
+        mirrored.reverse();
+        assert_eq!(read(&file("-Y 1 -X 8", &[&row])), Ok(mirrored));
+    }
+
+    #[test]
+    fn rows_from_the_bottom_are_turned_over() {
+        let rows: [&[u8]; 2] = [&[1, 1, 2, 129], &[5, 5, 5, 129]];
+        let top = read(&file("+Y 2 +X 1", &rows)).map(|pixels| pixels.first().copied());
+        assert_eq!(top, Ok(greys(&[5]).first().copied()));
+        assert_eq!(
+            header(&file("+Y 2 +X 1", &rows)).map(|header| header.exposure),
+            Ok(2.0)
+        );
+    }
+
+    #[test]
+    fn what_is_wrong_is_one_error() {
+        let row: &[u8] = &[7, 7, 7, 129, 9, 9, 9, 129];
+        for size in ["+X 2 -Y 1", "-Y 0 +X 2", "-Y 1 +X 99999999999", "-Y 1", ""] {
+            let problem = read(&file(size, &[row])).unwrap_err();
+            assert!(problem.starts_with("has the size"), "{problem}");
+        }
+        let whole = file("-Y 1 +X 2", &[row]);
+        for length in 0..whole.len() {
+            assert!(read(whole.get(..length).unwrap()).is_err(), "{length}");
+        }
+        for run in [&[1, 1, 1, 2][..], &[7, 7, 7, 129, 1, 1, 1, 2]] {
+            assert!(read(&file("-Y 1 +X 2", &[run])).is_err(), "{run:?}");
+        }
+        let endless: Vec<u8> = [&[7, 7, 7, 129][..], &[1, 1, 1, 0].repeat(40)].concat();
+        assert!(read(&file("-Y 1 +X 2", &[&endless])).is_err());
+        let xyz = b"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n\0\0\0\0";
+        let problem = header(xyz).unwrap_err();
+        assert_eq!(
+            problem,
+            "has the format \"32-bit_rle_xyze\", expected 32-bit_rle_rgbe"
+        );
+    }
+}
