@@ -121,7 +121,7 @@ impl Surroundings {
             intensity,
         };
         for part in &mut parts {
-            part.light.to_light = surroundings.from_picture(part.light.to_light);
+            part.light.to_light = surroundings.to_world(part.light.to_light);
             part.light.irradiance *= intensity;
         }
         surroundings.rounds = (1..=MAX_ROUNDS)
@@ -183,7 +183,7 @@ impl Surroundings {
     }
 
     /// A direction of the picture in the world.
-    fn from_picture(&self, d: Vec3) -> Vec3 {
+    fn to_world(&self, d: Vec3) -> Vec3 {
         let (cos, sin) = self.turn;
         Vec3::new(cos * d.x + sin * d.z, d.y, cos * d.z - sin * d.x)
     }

@@ -86,7 +86,7 @@ fn an_environment_that_makes_no_sense_is_told_with_its_line() {
         (
             "kind = \"sky\"\nturn = 1",
             3,
-            "unknown key \"turn\" in [environment]; did you mean \"sun\"?",
+            "unknown key \"turn\" in [environment]; the nearest known is \"sun\"",
         ),
     ] {
         assert_error(&format!("[environment]\n{entries}"), line, message);
