@@ -4,9 +4,12 @@ use super::Equirect;
 use crate::color::Rgb;
 use glam::{Vec2, Vec3};
 
-const WIDTH: u32 = 512;
+const WIDTH: u32 = 1024;
 /// The angle of a pixel, radians.
 const PIXEL: f32 = std::f32::consts::TAU / WIDTH as f32;
+
+/// How wide the edge of a box is, radians: a narrower one has steps in a mirror.
+const EDGE: f32 = 3.0 * PIXEL;
 
 /// A box with a bright, soft front, as one sees it from the middle of the room.
 struct SoftBox {
@@ -84,6 +87,8 @@ fn smooth(from: f32, to: f32, value: f32) -> f32 {
 struct Front<'a> {
     shape: &'a SoftBox,
     toward: Vec3,
+    /// How far its corners are, and a pixel more.
+    reach: f32,
     right: Vec3,
     up: Vec3,
 }
@@ -93,8 +98,10 @@ impl Front<'_> {
         let [azimuth, elevation] = [shape.azimuth, shape.elevation].map(f32::to_radians);
         let [sin_azimuth, cos_azimuth] = [libm::sinf(azimuth), libm::cosf(azimuth)];
         let [sin, cos] = [libm::sinf(elevation), libm::cosf(elevation)];
+        let half_diagonal = Vec2::from(shape.half_size).length() + 4.0 * PIXEL;
         Front {
             shape,
+            reach: (1.0 + half_diagonal * half_diagonal).sqrt(),
             toward: Vec3::new(sin_azimuth * cos, sin, cos_azimuth * cos),
             right: Vec3::new(cos_azimuth, 0.0, -sin_azimuth),
             up: Vec3::new(-sin_azimuth * sin, cos, -cos_azimuth * sin),
@@ -105,7 +112,7 @@ impl Front<'_> {
     /// brighter than the edge.
     fn seen(&self, d: Vec3) -> (f32, f32) {
         let distance = 1.0 / d.dot(self.toward);
-        if !(0.0..8.0).contains(&distance) {
+        if !(0.0..self.reach).contains(&distance) {
             return (0.0, 0.0);
         }
         let place = Vec2::new(d.dot(self.right), d.dot(self.up)) * distance;
@@ -114,7 +121,9 @@ impl Front<'_> {
         let outside = beyond.max(Vec2::ZERO).length() - self.shape.corner;
         let from_edge = outside + beyond.max_element().min(0.0);
         // A pixel is larger on the box where that is seen at a slant.
-        let coverage = (0.5 - from_edge / (PIXEL * distance * distance)).clamp(0.0, 1.0);
+        let inside = (0.5 - from_edge / (EDGE * distance * distance)).clamp(0.0, 1.0);
+        // A sixth of the box is white on a display already: the edge rises slowly while it is seen.
+        let coverage = inside * inside * inside;
         let from_middle = (place / half_size).length_squared().min(2.0);
         (coverage, self.shape.radiance * (1.0 - 0.2 * from_middle))
     }
