@@ -4,6 +4,7 @@ mod animation;
 mod arguments;
 mod asks;
 mod cameras;
+mod environment;
 mod info;
 mod interrupt;
 mod outputs;

@@ -66,7 +66,7 @@ pub struct DistantLight {
 /// An environment made ready.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
-    /// As seen through ever wider lobes, of the roughnesses squared in [`ALPHAS`].
+    /// As seen through ever wider lobes, of the roughnesses squared in [`LEVELS`].
     levels: Arc<[Level]>,
     /// For each number of rounds the lights of each round.
     rounds: Arc<[Vec<Vec<DistantLight>>]>,
@@ -75,16 +75,18 @@ pub struct Surroundings {
     intensity: f32,
 }
 
-/// Roughness squared of each level after the first, which is the picture itself, and how many columns the level has:
-/// each lobe is twice as wide as the one before, and half the pixels are enough, down to what interpolates smoothly.
-const ALPHAS: [(f32, u32); 7] = [
-    (1.0 / 64.0, 512),
-    (1.0 / 32.0, 256),
-    (1.0 / 16.0, 128),
-    (1.0 / 8.0, 64),
-    (1.0 / 4.0, 64),
-    (1.0 / 2.0, 64),
-    (1.0, 64),
+/// Roughness squared of each level after the first, which is the picture itself, how many columns the level has, and of
+/// how many it is made. Each lobe is twice as wide as the one before, so half the pixels are enough, down to what
+/// interpolates smoothly.
+const LEVELS: [(f32, u32, u32); 7] = [
+    (1.0 / 64.0, 512, 512),
+    (1.0 / 32.0, 256, 256),
+    (1.0 / 16.0, 128, 128),
+    (1.0 / 8.0, 64, 128),
+    (1.0 / 4.0, 64, 128),
+    (1.0 / 2.0, 64, 64),
+    // The cosine has an edge at the horizon, which asks for more pixels than it leaves.
+    (1.0, 64, 128),
 ];
 /// Of the picture that the finest lobe is put over: a pixel is smaller than that lobe.
 const FINEST: u32 = 512;
@@ -99,15 +101,13 @@ impl Surroundings {
         let picture = environment.radiance.sound();
         let fine = picture.resized(FINEST, FINEST / 2);
         let of_width = |width: u32| fine.resized(width, width / 2);
-        let filtered = |&(alpha, width): &(f32, u32)| {
+        let filtered = |&(alpha, width, source): &(f32, u32, u32)| {
             let lobe = Lobe::of_alpha(alpha.into());
-            // The cosine has an edge at the horizon, which asks for more pixels than it leaves.
-            let source = if alpha < 1.0 { width } else { 2 * width };
             Level::new(prefiltered(&of_width(source), width, &lobe))
         };
         let (mut parts, rough) = rayon::join(
             || median_cut::lights(&of_width(CUT), environment.lights.clamp(1, MAX_LIGHTS)),
-            || ALPHAS.par_iter().map(filtered).collect::<Vec<_>>(),
+            || LEVELS.par_iter().map(filtered).collect::<Vec<_>>(),
         );
         let finite = |value: f32| if value.is_finite() { value } else { 0.0 };
         let (intensity, rotation) = (
@@ -121,7 +121,7 @@ impl Surroundings {
             intensity,
         };
         for part in &mut parts {
-            part.light.to_light = surroundings.from_picture(part.light.to_light);
+            part.light.to_light = surroundings.to_world(part.light.to_light);
             part.light.irradiance *= intensity;
         }
         surroundings.rounds = (1..=MAX_ROUNDS)
@@ -140,7 +140,7 @@ impl Surroundings {
             None => Rgb::BLACK,
         };
         let mut below = 0.0;
-        for (index, (above, _)) in ALPHAS.into_iter().enumerate() {
+        for (index, (above, ..)) in LEVELS.into_iter().enumerate() {
             if alpha <= above {
                 let share = (alpha - below) / (above - below);
                 let radiance = match share {
@@ -200,7 +200,7 @@ impl Surroundings {
     }
 
     /// A direction of the picture in the world.
-    fn from_picture(&self, d: Vec3) -> Vec3 {
+    fn to_world(&self, d: Vec3) -> Vec3 {
         let (cos, sin) = self.turn;
         Vec3::new(cos * d.x + sin * d.z, d.y, cos * d.z - sin * d.x)
     }

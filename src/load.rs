@@ -9,6 +9,7 @@ mod animated;
 mod asset;
 mod budget;
 mod choice;
+mod environment;
 mod exposure;
 mod files;
 mod images;
@@ -24,6 +25,7 @@ mod warnings;
 pub use analytic::{Analytic, AnalyticKind};
 pub use asset::{Asset, CameraSource, PictureDefaults, PlacedModel};
 pub use budget::Budget;
+pub use environment::{EnvironmentChoice, EnvironmentLight, sun};
 pub use model::{
     AnimationFacts, Ask, Facts, Model, ModelCamera, ModelMesh, Moved, Node, Note, Part,
     TextureFacts, Treatment,

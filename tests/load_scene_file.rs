@@ -1,5 +1,6 @@
 //! Scene files: every key, every default, and every error with the words a person reads.
 
+mod environment;
 mod wrong_files;
 mod wrong_keys;
 mod wrong_values;

@@ -8,6 +8,7 @@ mod assets;
 mod cli;
 mod common;
 mod environment;
+mod environment_light;
 mod finish;
 mod framing;
 mod golden;

@@ -1,6 +1,7 @@
 //! What can be said on the command line.
 
 use super::animation::AnimationArguments;
+use super::environment::EnvironmentArguments;
 use super::reading::Reading;
 use super::sampling::SamplingArguments;
 use super::study::StudyArguments;
@@ -207,6 +208,9 @@ pub(super) struct RenderArguments {
     /// grey in a model's PNG, transparent in its EXR]
     #[arg(long, value_name = "#RRGGBB|transparent|environment")]
     pub(super) background: Option<BackgroundValue>,
+
+    #[command(flatten)]
+    pub(super) environment: EnvironmentArguments,
 
     /// How much time the search tree's build takes for how good a tree
     #[arg(long, value_enum, value_name = "PRESET", default_value = "medium")]

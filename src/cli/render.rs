@@ -12,11 +12,11 @@ use luch::Error;
 use luch::accel::{self, Accel, Isa, Layout};
 use luch::camera::Camera;
 use luch::framing::View;
-use luch::load::{self, Asset, CameraChoice, Choices, Surrounding, Viewpoint};
+use luch::load::{self, Asset, CameraChoice, Choices, Viewpoint};
 use luch::output::{self, Display};
 use luch::render::{Progress, Settings, render};
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// The paper's figure 4, for who gives no file.
 pub(super) const FIGURE_4: &str = include_str!("../../assets/scenes/figure-4.toml");
@@ -44,9 +44,8 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
 
     let start = Instant::now();
     // Nothing of the one is needed for the other.
-    let (asset, (surrounding, environment)) =
-        rayon::join(|| open(arguments), || surrounding(arguments));
-    let mut asset = asset?;
+    let (asset, beside) = rayon::join(|| open(arguments), || arguments.environment.beside(name));
+    let (mut asset, (surrounding, environment)) = (asset?, beside?);
     outputs.spare(&asset.files)?;
     let settings = settings(arguments, &asset)?;
     let viewpoint = Viewpoint {
@@ -115,13 +114,6 @@ pub(super) fn open(arguments: &RenderArguments) -> Result<Asset, Failure> {
         None => load::scene_file::parse(FIGURE_4, Path::new(FIGURE_4_NAME), &options),
     }
     .map_err(Failure::usage_or_scene)
-}
-
-/// The environment that is asked for, made ready, and how long that took.
-fn surrounding(arguments: &RenderArguments) -> (Surrounding, Duration) {
-    let start = Instant::now();
-    let _ = arguments;
-    (Surrounding::OfFile, start.elapsed())
 }
 
 /// The arguments, where they are silent the file, where that is the defaults.

@@ -46,14 +46,10 @@ impl FromStr for BackgroundValue {
             let shown = Shown::Environment;
             return Ok(BackgroundValue(Background::plain(Rgb::BLACK, shown)));
         }
-        let digits = text.strip_prefix('#').unwrap_or(text);
-        let is_color = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
-        let bits = u32::from_str_radix(digits, 16).ok().filter(|_| is_color);
-        let bits = bits.ok_or(
+        let color = display_color(text.strip_prefix('#').unwrap_or(text));
+        let color = color.ok_or(
             "expected a colour of six hex digits, as in '#808080', transparent or environment",
         )?;
-        let channel = |shift: u32| srgb_to_linear((bits >> shift & 255) as f32 / 255.0);
-        let color = Rgb::new(channel(16), channel(8), channel(0));
         Ok(BackgroundValue(Background::plain(color, Shown::Always)))
     }
 }
@@ -80,6 +76,40 @@ impl From<DirectionValue> for Direction {
             DirectionValue::ThreeQuarter => Direction::ThreeQuarter,
         }
     }
+}
+
+/// The linear colour of six hex digits.
+pub(super) fn display_color(digits: &str) -> Option<Rgb> {
+    let is_color = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
+    let bits = u32::from_str_radix(digits, 16).ok().filter(|_| is_color)?;
+    let channel = |shift: u32| srgb_to_linear((bits >> shift & 255) as f32 / 255.0);
+    Some(Rgb::new(channel(16), channel(8), channel(0)))
+}
+
+/// An angle in degrees, of any size.
+pub(super) fn degrees(text: &str) -> Result<f64, String> {
+    let angle = text.parse().ok().filter(|angle: &f64| angle.abs() <= 1e6);
+    angle.ok_or_else(|| "expected an angle in degrees".into())
+}
+
+/// Where something is seen, in degrees, as in `-15,45`.
+pub(super) fn azimuth_and_elevation(text: &str) -> Result<[f64; 2], String> {
+    let angles = text.split_once(',').and_then(|(azimuth, elevation)| {
+        let elevation = degrees(elevation.trim()).ok();
+        let elevation = elevation.filter(|elevation| elevation.abs() <= 90.0)?;
+        Some([degrees(azimuth.trim()).ok()?, elevation])
+    });
+    let expected = "expected two angles in degrees with a comma between, as in -15,45, the second from -90 to 90";
+    angles.ok_or_else(|| expected.into())
+}
+
+/// What multiplies light.
+pub(super) fn factor(text: &str) -> Result<f32, String> {
+    let factor = text
+        .parse()
+        .ok()
+        .filter(|&factor| (0.0..=f32::MAX).contains(&factor));
+    factor.ok_or_else(|| "expected a finite number, 0 or more".into())
 }
 
 /// A point, as in `1,-2,0.5`.

@@ -52,8 +52,16 @@ impl Equirect {
                 pixels: vec![Rgb::BLACK],
             };
         }
-        // `max` takes the other number where one is none.
-        let sound = |pixel: &Rgb| pixel.map(|value| value.max(0.0).min(BRIGHTEST));
+        // False where there is no number.
+        let is_light = |value: f32| value > 0.0;
+        let sound_value = |value: f32| {
+            if is_light(value) {
+                value.min(BRIGHTEST)
+            } else {
+                0.0
+            }
+        };
+        let sound = |pixel: &Rgb| pixel.map(sound_value);
         let mut pixels: Vec<Rgb> = self.pixels.iter().take(count).map(sound).collect();
         pixels.resize(count, Rgb::BLACK);
         Equirect { pixels, ..*self }

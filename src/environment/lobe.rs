@@ -11,7 +11,7 @@ pub(super) struct Lobe {
 
 /// Below this share of its peak a narrow lobe is cut off. What remains is lowered by as much, so that a bright spot has
 /// no rim.
-const CUT: f64 = 1e-3;
+const CUT: f64 = 3e-3;
 /// Lobes of lesser exponents are wide: they reach the horizon.
 const WIDE: f64 = 8.0;
 const STEPS: u32 = 1024;

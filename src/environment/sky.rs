@@ -26,8 +26,9 @@ const ALBEDO: f64 = 0.25;
 /// The angle about the sun's middle in which its light is spread, radians: more than the 0.0047 it has, so that some pixel
 /// lies inside wherever it is.
 const SUN_RADIUS: f64 = 0.011;
-/// From kilocandela a square metre to the paper's units: a white level surface shows 1 where the sun stands 45 degrees high.
-const EXPOSURE: f64 = 1.0 / 29.0;
+/// From kilocandela a square metre to the paper's units, as a camera set to daylight sees it: a white level surface shows
+/// 1 in each channel where the sun stands 45 degrees high.
+const EXPOSURE: DVec3 = DVec3::new(1.0 / 30.69, 1.0 / 28.82, 1.0 / 30.96);
 
 /// A clear sky whose sun stands in the unit direction `sun`, over a grey ground that they light. A sun below the horizon
 /// counts as one that sets: dusk. As bright as light is: a white level surface shows 1 where the sun stands 45 degrees
@@ -94,9 +95,10 @@ impl Sun {
 
     /// Adds the sun's light to the pixels about its place: as much as there is, however large they are.
     fn shine(&self, picture: &mut Equirect) {
+        let cos_edge = libm::cos(SUN_RADIUS);
         let near = Equirect::of(WIDTH, HEIGHT, |d| {
             let cos = d.as_dvec3().dot(self.direction);
-            let inside = (cos - libm::cos(SUN_RADIUS)) / (1.0 - libm::cos(SUN_RADIUS));
+            let inside = (cos - cos_edge) / (1.0 - cos_edge);
             Rgb::grey(if d.y > 0.0 {
                 inside.max(0.0) as f32
             } else {
@@ -108,7 +110,7 @@ impl Sun {
             let sum: f64 = row.iter().map(|pixel| f64::from(pixel.g)).sum();
             sum * solid_angle(y, WIDTH, HEIGHT)
         };
-        let radiance = self.illuminance * (EXPOSURE / rows.map(of_row).sum::<f64>());
+        let radiance = self.illuminance * EXPOSURE / rows.map(of_row).sum::<f64>();
         for (pixel, share) in picture.pixels.iter_mut().zip(&near.pixels) {
             *pixel += to_rgb(radiance * f64::from(share.g));
         }

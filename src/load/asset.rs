@@ -1,12 +1,13 @@
 //! What a file holds, before a choice of camera and time makes a scene of it.
 
+use super::environment::EnvironmentChoice;
 use super::pose::{Pose, PosedMeshes};
 use super::viewpoint::{self, Choices, PlacedCamera, Surrounding, Viewpoint};
 use super::{Budget, Model, Warnings};
 use crate::Error;
 use crate::camera::Camera;
 use crate::color::Rgb;
-use crate::environment::{self, Environment, Surroundings};
+use crate::environment::Surroundings;
 use crate::error::OutOfMemory;
 use crate::geometry::{Plane, Sphere};
 use crate::light::Light;
@@ -19,9 +20,6 @@ use crate::texture::TextureFilter;
 use glam::{DAffine3, Vec3};
 use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Into so many lights an environment is cut.
-const LIGHTS: u32 = 64;
 
 /// Everything a file holds.
 #[derive(Clone, Debug)]
@@ -46,6 +44,8 @@ pub struct Asset {
     pub background: Option<Rgb>,
     /// The ambient light, where the file says it.
     pub ambient: Option<Rgb>,
+    /// What the file says of the light from all around.
+    pub environment: EnvironmentChoice,
     /// What the file says of the picture.
     pub picture: PictureDefaults,
     /// What was ignored or mended, those of the models included.
@@ -174,7 +174,7 @@ impl Asset {
         looked_at.map_err(|problem| problem.of(&self.file, "the scene"))?;
         let framed = viewpoint::camera(self, &cameras, viewpoint, &scene, &mut choices)?;
         scene.camera = framed.camera;
-        let environment = self.environment(viewpoint);
+        let environment = self.environment(viewpoint, &mut choices)?;
         viewpoint::light(
             self,
             viewpoint,
@@ -194,18 +194,26 @@ impl Asset {
     }
 
     /// The environment that the viewpoint, the file or the default gives.
-    fn environment(&self, viewpoint: &Viewpoint) -> Option<Arc<Surroundings>> {
-        match &viewpoint.environment {
-            Surrounding::Given(environment) => Some(environment.clone()),
-            Surrounding::None => None,
-            Surrounding::OfFile if self.is_scene_file => None,
-            Surrounding::OfFile => Some(Arc::new(Surroundings::new(&Environment {
-                radiance: Arc::new(environment::studio()),
-                rotation: 0.0,
-                intensity: 1.0,
-                lights: LIGHTS,
-            }))),
-        }
+    fn environment(
+        &self,
+        viewpoint: &Viewpoint,
+        choices: &mut Choices,
+    ) -> Result<Option<Arc<Surroundings>>, Error> {
+        let asked = match &viewpoint.environment {
+            Surrounding::Ready(environment) => return Ok(environment.clone()),
+            Surrounding::Asked(choice) => choice.or(&self.environment),
+        };
+        let choice = if self.is_scene_file {
+            asked
+        } else {
+            asked.or(&EnvironmentChoice::of_models())
+        };
+        let mut warnings = Warnings::default();
+        let environment = choice.surroundings(&self.budget, &mut warnings)?;
+        choices
+            .lines
+            .extend(warnings.iter().map(ToString::to_string));
+        Ok(environment)
     }
 
     /// The cameras of its models as they stand at the beginning, in the order in which a user may ask for them by index.
@@ -250,6 +258,7 @@ impl Asset {
             camera: None,
             background: None,
             ambient: None,
+            environment: EnvironmentChoice::default(),
             picture: PictureDefaults::default(),
             budget,
         }

@@ -1,6 +1,8 @@
 //! Image files, each kind in a file of its own: what one of these is called, how great it is, its pixels.
 
 mod common;
+pub(super) mod exr;
+pub(super) mod hdr;
 mod jpeg;
 mod ktx2;
 mod rgba;

@@ -4,6 +4,7 @@
 //! known is an error, so that a slip of the pen never renders as something else.
 
 mod camera;
+mod environment;
 mod kind;
 mod lights;
 mod materials;
@@ -24,11 +25,12 @@ use std::path::Path;
 use table::Table;
 
 /// What may stand at the top of a scene file.
-const TABLES: [&str; 9] = [
+const TABLES: [&str; 10] = [
     "camera",
     "render",
     "background",
     "ambient",
+    "environment",
     "material",
     "sphere",
     "plane",
@@ -95,6 +97,7 @@ fn read(
     let lights = lights::read(&root)?;
     let background = picture::color_of(&root, &picture::BACKGROUND)?;
     let ambient = picture::color_of(&root, &picture::AMBIENT)?;
+    let environment = environment::read(&root, path)?;
     let picture = picture::read(&root)?;
     let camera = camera::read(&root)?;
     let models = Models::open(&root, &materials, path, budget, open_model)?;
@@ -122,6 +125,7 @@ fn read(
         camera,
         background,
         ambient,
+        environment,
         picture,
         warnings: models.warnings,
         files: models.files,

@@ -13,6 +13,7 @@ pub(super) use ground::ground;
 pub(super) use lights::{carried, light};
 
 use super::Asset;
+use super::environment::EnvironmentChoice;
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::environment::Surroundings;
@@ -53,7 +54,7 @@ impl Viewpoint {
             fov_y: None,
             background: None,
             exposure: None,
-            environment: Surrounding::OfFile,
+            environment: Surrounding::Asked(EnvironmentChoice::default()),
             lights: None,
             ground: GroundChoice::Auto,
             ground_reflectivity: 0.0,
@@ -61,16 +62,13 @@ impl Viewpoint {
     }
 }
 
-/// The environment of an asset.
-#[derive(Clone, Debug, Default)]
+/// The light from all around an asset.
+#[derive(Clone, Debug)]
 pub enum Surrounding {
-    /// What the file says; a model has a studio about it, a scene file that says nothing has none.
-    #[default]
-    OfFile,
-    /// This one.
-    Given(Arc<Surroundings>),
-    /// None.
-    None,
+    /// What is said of it; the file where that is silent; a studio about a model where both are.
+    Asked(EnvironmentChoice),
+    /// This one, made ready before.
+    Ready(Option<Arc<Surroundings>>),
 }
 
 /// Whose lights shine on a model.

@@ -61,6 +61,16 @@ fn a_slip_of_the_pen_is_one_line() {
 }
 
 #[test]
+fn a_sun_is_for_a_sky_alone() {
+    let folder = Folder::with_scene_and_model();
+    let error = "--sun is where the sun of a sky stands; use it with --environment sky";
+    for more in [&[][..], &["--environment", "studio"]] {
+        let arguments = [&["render", "scene.toml", "--sun", "0,45"], more].concat();
+        folder.luch_fails(&arguments, 1, error);
+    }
+}
+
+#[test]
 fn a_bad_value_is_told_what_is_expected() {
     let folder = Folder::with_scene_and_model();
     for (option, value, expected) in [
@@ -92,6 +102,31 @@ fn a_bad_value_is_told_what_is_expected() {
             "leaf-size <N>",
             "256",
             "expected a whole number from 1 to 16",
+        ),
+        (
+            "environment <studio|sky|none|#RRGGBB|FILE>",
+            "sky.png",
+            "expected studio, sky, none, a colour of six hex digits, as in '#808080', or a .hdr or .exr file",
+        ),
+        (
+            "environment-rotation <DEGREES>",
+            "inf",
+            "expected an angle in degrees",
+        ),
+        (
+            "environment-intensity <FACTOR>",
+            "-1",
+            "expected a finite number, 0 or more",
+        ),
+        (
+            "environment-lights <N>",
+            "1025",
+            "expected a whole number from 1 to 1024",
+        ),
+        (
+            "sun <AZIMUTH,ELEVATION>",
+            "0,91",
+            "expected two angles in degrees with a comma between, as in -15,45, the second from -90 to 90",
         ),
         (
             "fov <DEGREES>",

@@ -76,6 +76,18 @@ pub(super) const COUNT_ABOVE_ZERO: Kind<u32> = Kind {
     read: |value| (COUNT.read)(value).filter(|&count| count > 0),
 };
 
+/// How far something is turned, in radians.
+pub(super) const TURN: Kind<f32> = Kind {
+    expected: "an angle in degrees",
+    read: angle,
+};
+
+/// Where something is seen, in degrees: azimuth and elevation.
+pub(super) const ANGLES: Kind<[f64; 2]> = Kind {
+    expected: "two angles in degrees, [azimuth, elevation], the latter from -90 to 90",
+    read: |value| numbers(value).filter(|[_, elevation]| (-90.0..=90.0).contains(elevation)),
+};
+
 /// Words.
 pub(super) const TEXT: Kind<String> = Kind {
     expected: "a text in quotes",
