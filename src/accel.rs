@@ -17,7 +17,7 @@ mod options;
 mod others;
 mod primitive;
 mod slab;
-mod transparent;
+mod somewhere;
 mod tree;
 mod wide;
 
@@ -31,9 +31,9 @@ use crate::scene::{InstanceSpace, Scene};
 use items::{ItemsOfWorld, of_shared};
 use kernel::{Best, Scratch};
 use others::{Other, Others};
+use somewhere::Somewhere;
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
-use transparent::Transparent;
 use tree::Tree;
 
 /// A scene's primitives, ready to be searched.
@@ -49,7 +49,8 @@ pub struct Accel {
     others: Option<Others>,
     isa: Isa,
     packets: bool,
-    transparent: Transparent,
+    transparent: Somewhere,
+    anything: Somewhere,
     /// The most that a search leaves on its stack.
     stack_size: usize,
     statistics: Statistics,
@@ -116,7 +117,8 @@ impl Accel {
             others: None,
             isa: options.isa,
             packets: options.packets,
-            transparent: Transparent::of(scene),
+            transparent: Somewhere::transparent(scene),
+            anything: Somewhere::anything(scene),
             stack_size: 0,
             statistics: Statistics::default(),
         };
@@ -181,6 +183,11 @@ impl Accel {
     /// Whether anything in the scene lets some light through, so that [`Accel::occluded`] is not the whole answer.
     pub fn has_transparent(&self) -> bool {
         !self.transparent.is_nowhere()
+    }
+
+    /// False only where a ray meets nothing: quick, and not exact.
+    pub fn may_meet(&self, ray: &Ray) -> bool {
+        self.anything.may_be_met(ray)
     }
 
     /// Whether the ray may meet such a thing; it does not where this is false.

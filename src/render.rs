@@ -105,6 +105,8 @@ struct Rendering<'a> {
     weights: Vec<f32>,
     /// The numbers of samples after which a pixel may stop.
     stops: Vec<u32>,
+    /// By so many of 256 steps one sample more may change a pixel that gets none.
+    tolerance: u32,
     is_adaptive: bool,
 }
 
@@ -125,6 +127,7 @@ impl<'a> Rendering<'a> {
             offsets,
             weights,
             stops: settings.sampling.stops(),
+            tolerance: settings.sampling.tolerance(),
             is_adaptive: settings.is_adaptive(),
         }
     }

@@ -52,6 +52,9 @@ pub const MAX_SAMPLES: u32 = 65_536;
 /// What every pixel gets where sampling is adaptive, if there are so many.
 pub const BASE: u32 = 4;
 
+/// Who asks for so many samples wants to see nothing of their number.
+const FINE: u32 = 64;
+
 impl Sampling {
     /// The paper's: a regular grid, averaged with equal weight.
     pub fn grid(samples: u32) -> Sampling {
@@ -78,6 +81,12 @@ impl Sampling {
         }
         stops.push(self.samples);
         stops
+    }
+
+    /// By how much of what can be seen, in 256 steps, one sample more may change a pixel that gets none: one step where 64
+    /// samples and more are asked for, and four times as much for a quarter of them.
+    pub fn tolerance(&self) -> u32 {
+        (FINE / self.samples.max(1)).max(1)
     }
 
     /// Where the samples are, in the order in which they are taken. A grid of no square number has none.

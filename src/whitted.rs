@@ -44,6 +44,10 @@ use transparent::ThroughLayers;
 /// followed: a camera ray has at most 3 x 4096 rays under way, however often they split.
 pub const MAX_LAYERS: u32 = 64;
 
+/// In an environment, where glass shows light from everywhere, a path that went through some is not followed below this
+/// share of its light: rays split at each boundary, and with [`mirror::LEAST_ENERGY`] a vase took far longer.
+const LEAST_IN_GLASS: f32 = 1.0 / 256.0;
+
 /// What a camera ray brings back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
@@ -55,7 +59,7 @@ pub struct Sample {
     pub depth: f32,
     /// Of what was met first, [`Scene::object_of`], or [`NO_OBJECT`].
     pub object: u32,
-    /// The unit normal there that shading sees; zero where there is none.
+    /// The surface's own unit normal there, which no texture bends; zero where there is none.
     pub normal: Vec3,
 }
 
@@ -262,7 +266,7 @@ impl<'a> Tracer<'a> {
                 if let (0, Some(hit)) = (self.paths.paths[path].bounces, &self.hits[path]) {
                     sample.depth = view.depth(&self.paths.rays[path], hit.t);
                     sample.object = self.scene.object_of(hit.primitive, &mut self.recent);
-                    sample.normal = places[index / WIDTH].normal(index % WIDTH);
+                    sample.normal = places[index / WIDTH].true_normal(index % WIDTH);
                 }
             }
         }

@@ -14,12 +14,18 @@ pub(super) struct Known {
 impl Known {
     /// Whether a pixel's samples differ from one another, or from those of one of the eight pixels around it, in a
     /// picture of this width and height.
-    pub(super) fn needs_more(&self, [width, height]: [u32; 2], [i, j]: [u32; 2]) -> bool {
+    pub(super) fn needs_more(
+        &self,
+        [width, height]: [u32; 2],
+        [i, j]: [u32; 2],
+        tolerance: u32,
+    ) -> bool {
         let at = |i: u32, j: u32| self.records.get(j as usize * width as usize + i as usize);
         let Some(record) = at(i, j) else { return false };
         let around = |along: u32, size: u32| along.saturating_sub(1)..(along + 2).min(size);
         let mut neighbours = around(j, height).flat_map(|j| around(i, width).map(move |i| (i, j)));
-        record.needs_more()
-            || neighbours.any(|(i, j)| at(i, j).is_some_and(|it| record.differs_from(it)))
+        record.needs_more(tolerance)
+            || neighbours
+                .any(|(i, j)| at(i, j).is_some_and(|it| record.differs_from(it, tolerance)))
     }
 }

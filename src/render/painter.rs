@@ -101,7 +101,9 @@ impl<'a> Painter<'a> {
             let &[from, to] = stop else { continue };
             if from > BASE {
                 let records = &self.pixels.records;
-                self.active.retain(|&index| records[index].needs_more());
+                let tolerance = rendering.tolerance;
+                self.active
+                    .retain(|&index| records[index].needs_more(tolerance));
             }
             if self.active.is_empty() {
                 break;
@@ -156,7 +158,7 @@ impl<'a> Painter<'a> {
             ..
         } = *self.rendering.settings;
         for [i, j] in tile.tiles(tile_side).flat_map(Tile::pixels) {
-            if !known.needs_more([width, height], [i, j]) {
+            if !known.needs_more([width, height], [i, j], self.rendering.tolerance) {
                 continue;
             }
             let index = j as usize * width as usize + i as usize;

@@ -62,19 +62,20 @@ impl Record {
         self.torn |= self.object != sample.object || !same_side(self.normal, normal);
     }
 
-    /// Whether one sample more, like one of those that the pixel has, could change it by more than 1/256 of what can be
-    /// seen; and where few samples see several things, whatever their light.
-    pub(super) fn needs_more(&self) -> bool {
-        self.torn && self.samples <= BASE || differ(&self.least, &self.greatest, self.samples)
+    /// Whether one sample more, like one of those that the pixel has, could change it by more than `tolerance` of the 256
+    /// steps that can be seen; and where few samples see several things, whatever their light.
+    pub(super) fn needs_more(&self, tolerance: u32) -> bool {
+        self.torn && self.samples <= BASE
+            || differ(&self.least, &self.greatest, self.samples * tolerance)
     }
 
     /// Whether something ends between this pixel and another: objects, sides, or light differ.
-    pub(super) fn differs_from(&self, other: &Record) -> bool {
+    pub(super) fn differs_from(&self, other: &Record, tolerance: u32) -> bool {
         let least = std::array::from_fn(|i| self.least[i].min(other.least[i]));
         let greatest = std::array::from_fn(|i| self.greatest[i].max(other.greatest[i]));
         self.object != other.object
             || !same_side(self.normal, other.normal)
-            || differ(&least, &greatest, self.samples)
+            || differ(&least, &greatest, self.samples * tolerance)
     }
 
     /// The mean colour, premultiplied, and alpha, where the filter's weights of the samples add to `weight`.
@@ -104,11 +105,11 @@ fn seen(sample: &Sample) -> [u8; 4] {
     [shown(r), shown(g), shown(b), alpha]
 }
 
-/// Whether channels differ by more than one step a sample.
-fn differ(least: &[u8; 4], greatest: &[u8; 4], samples: u32) -> bool {
+/// Whether a channel differs by more than so many steps.
+fn differ(least: &[u8; 4], greatest: &[u8; 4], steps: u32) -> bool {
     let channels = least.iter().zip(greatest);
     let mut spreads = channels.map(|(least, greatest)| greatest.saturating_sub(*least));
-    spreads.any(|spread| u32::from(spread) > samples)
+    spreads.any(|spread| u32::from(spread) > steps)
 }
 
 /// Whether normals are less than 15 degrees apart, or one is missing.

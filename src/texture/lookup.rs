@@ -107,6 +107,19 @@ impl Texture {
                 let (x, y) = (x - 0.5, y - 0.5);
                 let (i, j) = (floor(x), floor(y));
                 let (right_share, bottom_share) = (x - i as f32, y - j as f32);
+                let within = |i: i64, size: u32| (0..i64::from(size) - 1).contains(&i);
+                if within(i, width) && within(j, height) {
+                    // No neighbour is across an edge: the same sums, but for what finds the pixels.
+                    let (first, next) = (j as usize * width as usize + i as usize, width as usize);
+                    let pair = |at: usize| match pixels.get(at..at + 2) {
+                        Some(&[left, right]) => {
+                            decode(left) * (1.0 - right_share) + decode(right) * right_share
+                        }
+                        _ => Vec4::ZERO,
+                    };
+                    let (top, bottom) = (pair(first), pair(first + next));
+                    return top * (1.0 - bottom_share) + bottom * bottom_share;
+                }
                 let [left, right] = [column(i), column(i.saturating_add(1))];
                 let across = |row| {
                     let (left, right) = (texel(row + left), texel(row + right));

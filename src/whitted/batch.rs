@@ -253,7 +253,7 @@ pub(super) fn ray_to(light: &Illumination, point: &SurfacePoint) -> Ray {
 pub(super) const FROM_LAMPS: usize = 0;
 /// Those that begin at surfaces.
 pub(super) const FROM_SURFACES: usize = 1;
-/// Those that begin at the ground: what they decide about belongs to paths, not yet to samples.
+/// Those that begin at the ground: what they decide about does not belong to samples yet.
 pub(super) const FROM_GROUND: usize = 2;
 
 /// Shadow rays, and what each decides about.
@@ -263,7 +263,7 @@ pub(super) struct ShadowRays {
     pub(super) light: Vec<Promised>,
 }
 
-/// What a sample (or, from the ground, a path) gets if nothing stands in the way of a shadow ray.
+/// What a sample (or a place on the ground, by its number) gets if nothing stands in the way of a shadow ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Promised {
     pub(super) sample: u32,

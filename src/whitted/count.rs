@@ -48,7 +48,10 @@ impl Tracer<'_> {
         let mut layers = ThroughLayers::default();
         for (ray, promised) in shadow_rays.rays.iter().zip(&shadow_rays.light) {
             let sample = match kind {
-                FROM_GROUND => self.paths.paths[promised.sample as usize].sample,
+                FROM_GROUND => {
+                    let path = self.grounded[promised.sample as usize].path;
+                    self.paths.paths[path as usize].sample
+                }
                 _ => promised.sample,
             };
             let Some(count) = counts.get_mut(sample as usize) else {

@@ -119,20 +119,22 @@ impl Tracer<'_> {
             return;
         }
         let promises = std::mem::take(shadow_rays);
-        for (promised, &occluded) in promises.light.iter().zip(&self.occluded) {
+        let occluded = std::mem::take(&mut self.occluded);
+        for (promised, &occluded) in promises.light.iter().zip(&occluded) {
             if !occluded {
                 self.keep(kind, promised, promised.light, samples);
             }
         }
+        self.occluded = occluded;
         self.shadow_rays[kind] = promises;
         self.shadow_rays[kind].clear();
     }
 
-    /// Gives what was promised: light to a sample, or sight of what lies behind the ground to a path.
+    /// Gives what was promised: light to a sample, or to the ground.
     #[inline(always)]
-    fn keep(&self, kind: usize, promised: &Promised, light: Rgb, samples: &mut [Sample]) {
+    fn keep(&mut self, kind: usize, promised: &Promised, light: Rgb, samples: &mut [Sample]) {
         if kind == FROM_GROUND {
-            self.see_past(promised.sample, light, samples);
+            self.grounded[promised.sample as usize].arrived += light;
         } else {
             samples[promised.sample as usize].color += light;
         }
@@ -152,11 +154,13 @@ impl Tracer<'_> {
         let lost = layers.follow(self.scene, accel, search, &shadow_rays.rays, &self.occluded);
         statistics.lost_in_layers += lost;
         let promises = std::mem::take(&mut self.shadow_rays[kind]);
-        for (promised, &share) in promises.light.iter().zip(&self.through_layers.shares) {
+        let shares = std::mem::take(&mut self.through_layers.shares);
+        for (promised, &share) in promises.light.iter().zip(&shares) {
             if share != Rgb::BLACK {
                 self.keep(kind, promised, promised.light * share, samples);
             }
         }
+        self.through_layers.shares = shares;
         self.shadow_rays[kind] = promises;
         self.shadow_rays[kind].clear();
     }

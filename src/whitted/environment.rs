@@ -6,7 +6,7 @@
 //! Illumination and Stochastic Shadows"). So nothing is grainy and nothing has a seam where no shadow is, however few
 //! lights there are.
 
-use super::batch::{Arrivals, FROM_SURFACES, Promised};
+use super::batch::{Arrivals, FROM_SURFACES, Path, Promised};
 use super::{Sample, Tracer};
 use crate::color::Rgb;
 use crate::environment::{DistantLight, Surroundings};
@@ -15,8 +15,9 @@ use crate::ray::Ray;
 use crate::shade::{Reflectance, Shading, mirror};
 use glam::Vec3;
 
-/// Of surfaces that are seen in mirrors or through glass, one light of so many is asked.
-const INDIRECT_STRIDE: u32 = 2;
+/// Of surfaces that are seen in mirrors or through glass, one light of so many is asked: in the first of them, and in
+/// glass in glass, of which there may be very many.
+const INDIRECT_STRIDES: [u32; 2] = [2, 8];
 
 /// A surface, ready to be lit by many lights that are infinitely far.
 #[derive(Clone, Copy, Debug)]
@@ -87,11 +88,7 @@ impl Tracer<'_> {
             let d = self.paths.rays[path].direction;
             let whole = unshadowed(self.rules.shading, environment, surface, normal, d);
             let whole = arrival.weight * whole;
-            let stride = if self.paths.paths[path].direct {
-                1
-            } else {
-                INDIRECT_STRIDE
-            };
+            let stride = stride(&self.paths.paths[path]);
             let asked = lights.iter().step_by(stride as usize);
             let arriving = asked.fold(Rgb::BLACK, |sum, light| sum + before(light, normal));
             // Where none of the lights shines, there is only what lies between them.
@@ -105,6 +102,16 @@ impl Tracer<'_> {
                 answer: over(whole, arriving),
             });
         }
+    }
+}
+
+/// Of the lights of a round, a surface that this path comes to asks one of so many.
+fn stride(path: &Path) -> u32 {
+    let [first, others] = INDIRECT_STRIDES;
+    match u32::from(path.bounces) + u32::from(path.layers) {
+        _ if path.direct => 1,
+        0..=2 => first,
+        _ => others,
     }
 }
 
@@ -145,16 +152,15 @@ pub(super) fn off(point: &SurfacePoint) -> Vec3 {
 
 /// Channel by channel `a / b`, zero where there is no `b`.
 pub(super) fn over(a: Rgb, b: Rgb) -> Rgb {
-    let ratio = |a: f32, b: f32| if b > 0.0 { a / b } else { 0.0 };
-    Rgb::new(ratio(a.r, b.r), ratio(a.g, b.g), ratio(a.b, b.b))
+    by_channel(a, b, |a, b| if b > 0.0 { a / b } else { 0.0 })
 }
 
 /// The channels of `light` in which `sum` is nothing.
 fn where_zero(sum: Rgb, light: Rgb) -> Rgb {
-    let kept = |sum: f32, light: f32| if sum > 0.0 { 0.0 } else { light };
-    Rgb::new(
-        kept(sum.r, light.r),
-        kept(sum.g, light.g),
-        kept(sum.b, light.b),
-    )
+    by_channel(sum, light, |sum, light| if sum > 0.0 { 0.0 } else { light })
+}
+
+/// Each channel of two colours by themselves through `f`.
+pub(super) fn by_channel(a: Rgb, b: Rgb, f: impl Fn(f32, f32) -> f32) -> Rgb {
+    Rgb::new(f(a.r, b.r), f(a.g, b.g), f(a.b, b.b))
 }

@@ -1,12 +1,11 @@
 //! The ground that catches shadows: what lies behind it is seen by the share of light that reaches it.
 
-use super::batch::{FROM_GROUND, Path, Promised, ray_to};
-use super::environment::{before, off, over};
+use super::batch::{FROM_GROUND, Path, Promised};
+use super::environment::{before, by_channel, over};
 use super::{Sample, Tracer};
 use crate::color::Rgb;
-use crate::geometry::SurfacePoint;
 use crate::light::{Illumination, Lamp};
-use crate::ray::Ray;
+use crate::ray::{AT_LIGHT, Ray};
 use crate::scene::{Ground, Shown};
 use crate::shade::{Shading, mirror};
 use glam::Vec3;
@@ -15,37 +14,37 @@ use glam::Vec3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grounded {
     /// Which of the paths.
-    path: u32,
+    pub(super) path: u32,
     /// Where along its ray.
     t: f32,
-    point: SurfacePoint,
-    /// One over all the light that there would be without shadows.
-    over_all: Rgb,
-    /// What of the path's energy shadows can take.
+    position: Vec3,
+    /// Where its shadow rays begin.
+    origin: Vec3,
+    /// How much of the path's energy light decides about.
     energy: Rgb,
+    /// What arrives of all light that there would be without shadows, which is `all`.
+    pub(super) arrived: Rgb,
+    all: Rgb,
 }
 
 impl Tracer<'_> {
     /// Whether path number `index`, which meets something at `t_max`, comes to the ground before; then it ends there.
     pub(super) fn meets_ground(&mut self, index: u32, ray: &Ray, path: &Path, t_max: f32) -> bool {
-        let met = self.scene.ground().and_then(|ground| {
-            let t = ground.meets(ray, t_max)?;
-            let point = ray.point_at(t);
-            Some((ground, t, point))
-        });
-        let Some((ground, t, point)) = met else {
+        let Some(ground) = self.scene.ground() else {
             return false;
         };
+        let Some(t) = ground.meets(ray, t_max) else {
+            return false;
+        };
+        let position = ray.point_at(t);
         self.grounded.push(Grounded {
             path: index,
             t,
-            point: SurfacePoint {
-                position: point,
-                normal: Vec3::Y,
-                error: ground.error(point),
-            },
-            over_all: Rgb::BLACK,
+            position,
+            origin: position.with_y(ground.center.y + 2.0 * ground.error(position)),
             energy: path.energy,
+            arrived: Rgb::BLACK,
+            all: Rgb::BLACK,
         });
         true
     }
@@ -53,78 +52,88 @@ impl Tracer<'_> {
     /// Follows every path that came to the ground to what lies behind it, but for what is in shadow.
     #[inline(never)]
     pub(super) fn pass_ground(&mut self, number: u32, samples: &mut [Sample]) {
-        let (scene, rules) = (self.scene, self.rules);
-        let Some(ground) = scene.ground().filter(|_| !self.grounded.is_empty()) else {
+        let Some(ground) = self.scene.ground().filter(|_| !self.grounded.is_empty()) else {
             return;
         };
-        let mut grounded = std::mem::take(&mut self.grounded);
-        let environment = scene.environment();
-        let lights = environment.map_or(&[][..], |e| e.lights(number, rules.rounds()));
-        // As everywhere, the environment's light is known; its lights say only which share of it arrives.
-        let whole = environment.map_or(Rgb::BLACK, |e| e.irradiance(Vec3::Y));
-        let all = lights.iter().map(|light| before(light, Vec3::Y));
-        let scale = over(whole, all.fold(Rgb::BLACK, |sum, light| sum + light));
-        for at in &mut grounded {
-            let path = self.paths.paths[at.path as usize];
-            self.mirror_on_ground(ground, at, path);
-            let lamps = scene.lamps().iter();
-            let of_lamps = lamps.filter_map(|lamp| falling(lamp, at.point.position));
-            let all = of_lamps.fold(whole, |sum, light| sum + light.irradiance);
-            let shaded = match rules.shading {
-                Shading::Flat => Rgb::BLACK,
-                _ => Rgb::grey(ground.presence(at.point.position)),
-            };
-            at.over_all = over(Rgb::WHITE, all);
-            let can_be_shaded = shaded * all.map(|channel| f32::from(u8::from(channel > 0.0)));
-            self.see_past(
-                at.path,
-                at.energy * can_be_shaded.map(|share| 1.0 - share),
-                samples,
-            );
-            at.energy = at.energy * can_be_shaded;
+        for index in 0..self.grounded.len() {
+            self.mirror_on_ground(ground, index);
         }
-        for light in lights {
-            let share = before(light, Vec3::Y) * scale;
-            if light.to_light.y > 0.0 {
-                for at in &grounded {
-                    let ray = along(light.to_light, &at.point);
-                    self.promise_past(at, ray, share);
-                }
-            }
-            self.add_unless_occluded(FROM_GROUND, samples);
+        if self.rules.shading != Shading::Flat {
+            self.light_ground(number);
         }
-        for lamp in scene.lamps() {
-            for at in &grounded {
-                if let Some(light) = falling(lamp, at.point.position) {
-                    let ray = ray_to(&light, &at.point);
-                    self.promise_past(at, ray, light.irradiance);
-                }
-            }
-            self.add_unless_occluded(FROM_GROUND, samples);
+        for index in 0..self.grounded.len() {
+            let at = self.grounded[index];
+            let presence = ground.presence(at.position);
+            let shadow = by_channel(at.arrived, at.all, |arrived, all| {
+                if all > 0.0 { 1.0 - arrived / all } else { 0.0 }
+            });
+            let seen = shadow.map(|shadow| 1.0 - presence * shadow.max(0.0));
+            self.see_past(at.path, at.energy * seen, samples);
         }
-        grounded.clear();
-        self.grounded = grounded;
+        self.grounded.clear();
     }
 
-    /// What lies behind the ground is seen by this share, if nothing stands in the way of `ray`.
-    fn promise_past(&mut self, at: &Grounded, ray: Ray, arriving: Rgb) {
-        let promised = Promised {
-            sample: at.path,
-            light: at.energy * arriving * at.over_all,
-        };
-        self.shadow_rays[FROM_GROUND].push(ray, promised);
+    /// Finds how much of all light arrives on the ground.
+    fn light_ground(&mut self, number: u32) {
+        let (scene, rounds) = (self.scene, self.rules.rounds());
+        let lights = scene.environment().map(|e| e.lights(number, rounds));
+        // As everywhere, the environment's light is known; its lights say only which share of it arrives.
+        let whole = scene.environment().map(|e| e.irradiance(Vec3::Y));
+        let lights = lights.unwrap_or_default();
+        let all = lights.iter().map(|light| before(light, Vec3::Y));
+        let all = all.fold(Rgb::BLACK, |sum, light| sum + light);
+        let scale = over(whole.unwrap_or_default(), all);
+        for light in lights.iter().filter(|light| light.to_light.y > 0.0) {
+            let arriving = before(light, Vec3::Y) * scale;
+            for index in 0..self.grounded.len() {
+                let origin = self.grounded[index].origin;
+                let ray = Ray::new(origin, light.to_light, f32::MIN_POSITIVE, f32::INFINITY);
+                self.promise_to_ground(index, ray, arriving);
+            }
+            self.add_unless_occluded(FROM_GROUND, &mut []);
+        }
+        for lamp in scene.lamps() {
+            for index in 0..self.grounded.len() {
+                let at = &self.grounded[index];
+                let Some(light) = falling(lamp, at.position) else {
+                    continue;
+                };
+                let most = light.distance * (1.0 - AT_LIGHT);
+                let ray = Ray::new(at.origin, light.to_light, f32::MIN_POSITIVE, most);
+                self.promise_to_ground(index, ray, light.irradiance);
+            }
+            self.add_unless_occluded(FROM_GROUND, &mut []);
+        }
+    }
+
+    /// Light that arrives if nothing stands in the way of `ray`. Most of the ground lies aside of everything.
+    fn promise_to_ground(&mut self, index: usize, ray: Ray, arriving: Rgb) {
+        let at = &mut self.grounded[index];
+        at.all += arriving;
+        if self.accel.may_meet(&ray) {
+            let promised = Promised {
+                sample: index as u32,
+                light: arriving,
+            };
+            self.shadow_rays[FROM_GROUND].push(ray, promised);
+        } else {
+            at.arrived += arriving;
+        }
     }
 
     /// Sends on what the ground mirrors. Where that meets nothing one sees what lies behind the ground, as elsewhere.
-    fn mirror_on_ground(&mut self, ground: &Ground, at: &mut Grounded, path: Path) {
-        let presence = ground.presence(at.point.position);
+    fn mirror_on_ground(&mut self, ground: &Ground, index: usize) {
+        let at = self.grounded[index];
+        let path = self.paths.paths[at.path as usize];
+        let presence = ground.presence(at.position);
         let energy = at.energy * (ground.reflectivity * presence);
         let most = self.rules.max_depth.min(u16::MAX.into());
         if !mirror::matters(energy) || u32::from(path.bounces) >= most {
             return;
         }
         let d = self.paths.rays[at.path as usize].direction;
-        let ray = along(mirror::direction(d, Vec3::Y), &at.point);
+        let r = mirror::direction(d, Vec3::Y);
+        let ray = Ray::new(at.origin, r, f32::MIN_POSITIVE, f32::INFINITY);
         let bounces = path.bounces + 1;
         self.further.push(
             ray,
@@ -136,7 +145,7 @@ impl Tracer<'_> {
             },
         );
         self.statistics.mirror_rays += 1;
-        at.energy = at.energy + energy * -1.0;
+        self.grounded[index].energy += energy * -1.0;
     }
 
     /// Adds what path number `index` sees where it meets nothing more, with this energy.
@@ -160,11 +169,6 @@ impl Tracer<'_> {
             (_, None) => sample.color += energy * background.color,
         }
     }
-}
-
-/// A ray that leaves the ground upward.
-fn along(direction: Vec3, point: &SurfacePoint) -> Ray {
-    Ray::new(off(point), direction, f32::MIN_POSITIVE, f32::INFINITY)
 }
 
 /// The light of a lamp that falls on a point of the ground, if any does, less what its slope takes.

@@ -140,6 +140,10 @@ impl Places {
         self.normal.get(lane)
     }
 
+    pub(super) fn true_normal(&self, lane: usize) -> Vec3 {
+        self.true_normal.get(lane)
+    }
+
     pub(super) fn set_normal(&mut self, lane: usize, normal: Vec3) {
         self.normal.set(lane, normal);
     }

@@ -1,7 +1,7 @@
 //! What goes on from a surface: rays off mirrors, and through what is transparent.
 
 use super::batch::{Arrival, Arrivals, Path};
-use super::{MAX_LAYERS, Tracer};
+use super::{LEAST_IN_GLASS, MAX_LAYERS, Tracer};
 use crate::color::Rgb;
 use crate::cone::Cone;
 use crate::ray::Ray;
@@ -36,7 +36,7 @@ impl Tracer<'_> {
         let arrival = &arrivals.list[index];
         let path = self.paths.paths[arrival.path as usize];
         let most = self.rules.max_depth.min(u16::MAX.into());
-        if !mirror::matters(energy) || u32::from(path.bounces) >= most {
+        if !self.matters(energy, path.layers) || u32::from(path.bounces) >= most {
             return;
         }
         let surface = &arrivals.reflectances[arrival.reflectance as usize];
@@ -52,6 +52,15 @@ impl Tracer<'_> {
         let ray = self.mirror_ray(arrivals, index, normal);
         self.further.push(ray, path);
         self.statistics.mirror_rays += 1;
+    }
+
+    /// Whether a path of this energy is followed that went through so many layers.
+    pub(super) fn matters(&self, energy: Rgb, layers: u8) -> bool {
+        let least = match self.scene.environment() {
+            Some(_) if layers > 0 => LEAST_IN_GLASS,
+            _ => mirror::LEAST_ENERGY,
+        };
+        energy.max_component() >= least
     }
 
     /// The mirror ray of an arrival about a normal of its.

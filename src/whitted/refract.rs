@@ -133,7 +133,7 @@ impl Tracer<'_> {
 
     /// Sends on a ray, as long as it matters and has not crossed too much.
     fn go_on(&mut self, ray: Ray, path: Path) {
-        if !mirror::matters(path.energy) {
+        if !self.matters(path.energy, path.layers) {
             return;
         }
         if u32::from(path.layers) == MAX_LAYERS {
