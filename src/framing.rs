@@ -112,6 +112,11 @@ impl Subject {
         self.room.is_some()
     }
 
+    /// Whether hardly any light comes to it from outside: it is a room, or there is a sky over it that is a thing.
+    pub fn is_enclosed(&self) -> bool {
+        self.is_interior() || !self.skies.is_empty()
+    }
+
     /// A camera that sees the subject in a picture of this `aspect` (width / height), with a vertical field of view in
     /// radians where one is given.
     ///

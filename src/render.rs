@@ -15,6 +15,7 @@ pub use settings::{Settings, SettingsError};
 
 use crate::accel::Accel;
 use crate::camera::View;
+use crate::environment::MAX_ROUNDS;
 use crate::film::Film;
 use crate::sampling::Offset;
 use crate::scene::Scene;
@@ -107,6 +108,8 @@ struct Rendering<'a> {
     stops: Vec<u32>,
     /// By so many of 256 steps one sample more may change a pixel that gets none.
     tolerance: u32,
+    /// So many samples see all lights of the environment, if there is one.
+    round: u32,
     is_adaptive: bool,
 }
 
@@ -128,6 +131,7 @@ impl<'a> Rendering<'a> {
             weights,
             stops: settings.sampling.stops(),
             tolerance: settings.sampling.tolerance(),
+            round: scene.environment().map_or(1, |_| MAX_ROUNDS),
             is_adaptive: settings.is_adaptive(),
         }
     }

@@ -28,6 +28,8 @@ use glam::Vec3;
 pub struct Reflectance {
     /// `k_d`.
     pub diffuse: Rgb,
+    /// The colour of diffuse light before anything is reflected: what [`Shading::Flat`] shows.
+    pub color: Rgb,
     /// `k_s`.
     pub specular: Rgb,
     /// `s`, the exponent of the highlight.
@@ -70,6 +72,7 @@ impl Reflectance {
     /// No light comes back, none comes from it.
     pub const BLACK: Reflectance = Reflectance {
         diffuse: Rgb::BLACK,
+        color: Rgb::BLACK,
         specular: Rgb::BLACK,
         shininess: 0.0,
         facets: None,

@@ -4,7 +4,7 @@
 //! project has none of them, since their licences differ.
 
 use super::common::{models, picture};
-use luch::load;
+use luch::load::{self, Viewpoint};
 use luch::material::AlphaMode;
 use luch::scene::Scene;
 use luch::shade::Shading;
@@ -119,7 +119,7 @@ fn drawn(file: &Path, side: u32) -> Result<Drawn, String> {
     let asset = load::open(file, &load::Options::default()).map_err(|error| error.to_string())?;
     let warnings = asset.warnings.iter().map(ToString::to_string).collect();
     let (scene, _) = asset
-        .scene(0.0, &picture::viewpoint(1.0))
+        .scene(0.0, &Viewpoint::of_file(1.0))
         .map_err(|error| error.to_string())?;
     let film = picture::of(&scene, side, side, Shading::BlinnPhong);
     let beauty = &film.layers[0].values;

@@ -101,8 +101,8 @@ pub(in crate::load) struct Framed {
     pub(in crate::load) camera: Camera,
     /// The box around what it was fitted to, or around everything.
     pub(in crate::load) bounds: Bounds,
-    /// Whether it stands in a room.
-    pub(in crate::load) is_interior: bool,
+    /// Whether it stands in a room, or under a sky that is a thing.
+    pub(in crate::load) is_enclosed: bool,
 }
 
 /// From where an asset is to be looked at.

@@ -78,7 +78,7 @@ impl<'a> Painter<'a> {
             for (record, sample) in self.pixels.records.iter_mut().zip(&self.samples) {
                 record.add(sample, offset.weight);
                 if rendering.is_adaptive {
-                    record.compare(sample);
+                    record.compare(sample, rendering.round);
                 }
             }
         }
@@ -125,7 +125,7 @@ impl<'a> Painter<'a> {
                 for (&index, sample) in self.active.iter().zip(&self.samples) {
                     let record = &mut self.pixels.records[index];
                     record.add(sample, offset.weight);
-                    record.compare(sample);
+                    record.compare(sample, rendering.round);
                 }
             }
             let counts = self.tracer.counts.iter().flatten();

@@ -14,6 +14,8 @@ pub(super) struct Record {
     /// The nearest.
     pub(super) depth: f32,
     pub(super) samples: u32,
+    /// Of the samples since the last that were compared, colour and alpha.
+    round: [f32; 4],
     /// The least and the greatest of [`seen`].
     least: [u8; 4],
     greatest: [u8; 4],
@@ -34,6 +36,7 @@ impl Record {
         alpha: 0.0,
         depth: f32::INFINITY,
         samples: 0,
+        round: [0.0; 4],
         least: [u8::MAX; 4],
         greatest: [0; 4],
         object: NO_OBJECT,
@@ -49,11 +52,19 @@ impl Record {
         self.samples += 1;
     }
 
-    /// Takes note of how a sample differs from those before; `add` comes first.
-    pub(super) fn compare(&mut self, sample: &Sample) {
-        for (channel, value) in seen(sample).into_iter().enumerate() {
-            self.least[channel] = self.least[channel].min(value);
-            self.greatest[channel] = self.greatest[channel].max(value);
+    /// Takes note of how a sample differs from those before; `add` comes first. Light is compared by rounds of so many
+    /// samples: in an environment each of a round sees other lights, and only their mean says what there is.
+    pub(super) fn compare(&mut self, sample: &Sample, round: u32) {
+        let Rgb { r, g, b } = sample.color;
+        for (sum, value) in self.round.iter_mut().zip([r, g, b, sample.alpha]) {
+            *sum += value;
+        }
+        if self.samples.is_multiple_of(round) {
+            let mean = std::mem::take(&mut self.round).map(|sum| sum / round as f32);
+            for (channel, value) in seen(mean).into_iter().enumerate() {
+                self.least[channel] = self.least[channel].min(value);
+                self.greatest[channel] = self.greatest[channel].max(value);
+            }
         }
         let normal = sample.normal.to_array().map(|along| (along * 127.0) as i8);
         if self.samples == 1 {
@@ -75,7 +86,7 @@ impl Record {
         let greatest = std::array::from_fn(|i| self.greatest[i].max(other.greatest[i]));
         self.object != other.object
             || !same_side(self.normal, other.normal)
-            || differ(&least, &greatest, self.samples * tolerance)
+            || differ(&least, &greatest, self.samples * tolerance / 2)
     }
 
     /// The mean colour, premultiplied, and alpha, where the filter's weights of the samples add to `weight`.
@@ -92,16 +103,15 @@ impl Record {
     }
 }
 
-/// What of a sample meets the eye, in 256 steps: its colour as a display may show it, whatever the exposure: half of the
+/// What of a light and its alpha meets the eye, in 256 steps: its colour as a display may show it, whatever the exposure: half of the
 /// steps are for what is darker than 1/3.
-fn seen(sample: &Sample) -> [u8; 4] {
-    let Rgb { r, g, b } = sample.color;
+fn seen([r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
     // No number counts as nothing.
     let shown = |light: f32| {
         let light = light.clamp(0.0, 1e9);
         ((light / (1.0 + light)).sqrt() * 255.0 + 0.5) as u8
     };
-    let alpha = (sample.alpha.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+    let alpha = (alpha.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
     [shown(r), shown(g), shown(b), alpha]
 }
 

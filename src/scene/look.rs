@@ -95,6 +95,7 @@ impl Scene {
                 };
                 Reflectance {
                     diffuse,
+                    color: diffuse,
                     specular,
                     shininess,
                     reflectivity: phong.reflectivity,
@@ -111,6 +112,7 @@ impl Scene {
                 let color = self.color(color, vertex) * tint;
                 Reflectance {
                     diffuse: color,
+                    color,
                     emission: color,
                     ..Reflectance::BLACK
                 }
@@ -164,6 +166,7 @@ pub(super) fn plain(material: &Material, in_environment: bool) -> Option<Reflect
         && material.textures().next().is_none();
     same.then_some(Reflectance {
         diffuse: phong.diffuse.factor,
+        color: phong.diffuse.factor,
         specular: phong.specular.factor,
         shininess: phong.shininess,
         reflectivity: phong.reflectivity,

@@ -225,6 +225,7 @@ impl Scene {
             let share = checker.share(plane, plane.double_position(ray), seen);
             if share > 0.0 {
                 reflectance.diffuse = reflectance.diffuse.mix(checker.color, share);
+                reflectance.color = reflectance.color.mix(checker.color, share);
                 reflectance.ambient = reflectance.ambient.mix(checker.color, share);
             }
         }

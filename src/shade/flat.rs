@@ -5,5 +5,5 @@ use crate::color::Rgb;
 
 /// `k_d`: the surface's colour, whatever the light.
 pub fn color(surface: &Reflectance) -> Rgb {
-    surface.diffuse
+    surface.color
 }

@@ -11,6 +11,10 @@
 //! | gloss | `R (1 - m)`, as much of it as arrives | ours: the rest of the lobe sees the environment as wide as it is |
 //! | ambient | diffuse + gloss + what comes through | where occlusion lets light arrive |
 //!
+//! Light that one facet sends to another comes out of a rough surface in the end: what is reflected, and `F0` and `F90` of
+//! the highlight, are multiplied by `1 + F0 (1 / (a + b) - 1)` (Turquin 2019, "Practical Multiple Scattering Compensation
+//! for Microfacet Models", eq. 16), so that white metal loses nothing.
+//!
 //! A thin film replaces `F`, and `F0` in the highlight, by its own at this angle ([`iridescence`]).
 
 use super::Reflectance;
@@ -56,6 +60,8 @@ pub fn reflectance(p: Parameters, cos_view: f32, emission: Rgb) -> Reflectance {
         reflected = reflected.mix(tinted * (head_on + edge), film.strength);
         f0 = f0.mix(tinted, film.strength);
     }
+    let again = f0.map(|f0| 1.0 + f0.min(1.0) * (1.0 / (head_on + edge) - 1.0));
+    reflected = reflected * again;
     let greatest = reflected.max_component();
     let mirrored = mirrored_share(roughness, greatest);
     let left = (1.0 - greatest).max(0.0);
@@ -63,7 +69,12 @@ pub fn reflectance(p: Parameters, cos_view: f32, emission: Rgb) -> Reflectance {
     let gloss = reflected * ((1.0 - mirrored) * p.ambient_access);
     Reflectance {
         diffuse,
-        facets: Some(Facets::new(f0, p.f90, roughness)),
+        color: p.diffuse,
+        facets: Some(Facets::new(
+            f0 * again,
+            p.f90 * again.max_component(),
+            roughness,
+        )),
         reflectivity: reflected * mirrored,
         mirror_roughness: roughness,
         gloss,
@@ -144,7 +155,8 @@ mod tests {
                     let [a, b] = albedo(cos, roughness);
                     let found = surface(1.0, f0, roughness, cos);
                     let reflected = found.reflectivity.g + found.gloss.g;
-                    assert!((reflected - (f0 * a + b)).abs() < 1e-6);
+                    let again = 1.0 + f0 * (1.0 / (a + b) - 1.0);
+                    assert!((reflected - (f0 * a + b) * again).abs() < 1e-6);
                     assert!((found.diffuse.g + reflected - 1.0).abs() < 1e-6);
                     assert!((found.ambient.g - found.diffuse.g - found.gloss.g).abs() < 1e-6);
                 }

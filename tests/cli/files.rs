@@ -305,7 +305,7 @@ fn a_picture_that_does_not_fit_into_the_memory_allowed_is_one_line() {
     assert_eq!(code, Some(1));
     assert_eq!(
         said,
-        "error: model.obj: the scene with its picture takes 161 MB of memory, 104 MB are left; \
+        "error: model.obj: the scene with its picture takes 609 MB of memory, 104 MB are left; \
          make it smaller, or allow more with --max-memory\n"
     );
     let (code, said) = render("4 bananas");

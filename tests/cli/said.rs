@@ -12,8 +12,8 @@ fn each_choice_and_each_file_is_said_once() {
         choices,
         [
             "camera: none in the file; a three-quarter view, fitted to the model",
-            "light: none in the file; a key and a fill from the viewer's upper left, soft ambient",
-            "background: neutral grey (an EXR is transparent there)",
+            "light: none in the file; the environment",
+            "background: light grey (an EXR is transparent there)",
         ]
     );
     let rest: Vec<&str> = ran.out().lines().skip(3).collect();
@@ -101,7 +101,7 @@ fn json_is_all_that_standard_output_has() {
         ("/threads", json!(1)),
         (
             "/scene",
-            json!({"triangles": 1, "spheres": 0, "planes": 0, "lights": 2}),
+            json!({"triangles": 1, "spheres": 0, "planes": 0, "lights": 0}),
         ),
         ("/rays/lost_in_layers", json!(0)),
         ("/bvh/nodes", json!(1)),

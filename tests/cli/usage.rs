@@ -184,9 +184,9 @@ fn a_bad_value_is_told_what_is_expected() {
             "there is no layer \"fog\"; known are beauty, data, Z, cost and samples, with commas between",
         ),
         (
-            "background <#RRGGBB|transparent>",
+            "background <#RRGGBB|transparent|environment>",
             "grey",
-            "expected a colour of six hex digits, as in '#808080', or transparent",
+            "expected a colour of six hex digits, as in '#808080', transparent or environment",
         ),
     ] {
         let name = option.split(' ').next().unwrap_or_default();

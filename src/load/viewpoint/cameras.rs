@@ -75,7 +75,7 @@ fn framed(
     Framed {
         camera: subject.camera(view, viewpoint.aspect, viewpoint.fov_y),
         bounds: subject.bounds,
-        is_interior: subject.is_interior(),
+        is_enclosed: subject.is_enclosed(),
     }
 }
 
@@ -91,7 +91,7 @@ fn around(camera: Camera, scene: &SceneDescription) -> Framed {
     Framed {
         camera,
         bounds,
-        is_interior: is_within && Subject::of(faces(scene)).is_interior(),
+        is_enclosed: is_within && Subject::of(faces(scene)).is_enclosed(),
     }
 }
 

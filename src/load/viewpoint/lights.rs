@@ -40,11 +40,11 @@ pub(in crate::load) fn light(
         return;
     }
     if scene.lights.is_empty() {
-        let name = match (&scene.environment, framed.is_interior) {
+        let name = match (&scene.environment, framed.is_enclosed) {
             (_, true) => {
                 scene.lights.push(lamp(framed));
                 scene.ambient = INDOORS_AMBIENT;
-                "a lamp, since the camera is in a room"
+                "a lamp, since the camera is in a room or under a sky"
             }
             (Some(_), false) => "the environment",
             (None, false) => "nothing",
