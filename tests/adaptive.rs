@@ -129,8 +129,8 @@ fn outside_models_are_those_of_64_samples_for_a_third_of_the_rays() {
         };
         let scene = opened(path);
         let (all, display) = (of_model(false), Display::PbrNeutral);
-        // The many faint edges of soft shadows on the ground keep them from the 0.001 of figure 5.
-        assert_close(name, &scene, [240, 180], all, display, 0.008);
+        // Soft shadows on the ground are many faint edges, of which 4 samples miss some: they miss the 0.001 of figure 5.
+        assert_close(name, &scene, [240, 180], all, display, 0.02);
     }
 }
 
