@@ -1,20 +1,22 @@
 //! What can be said on the command line.
 
+mod choices;
+
 use super::animation::AnimationArguments;
 use super::environment::EnvironmentArguments;
 use super::reading::Reading;
 use super::sampling::SamplingArguments;
 use super::study::StudyArguments;
 use super::values::{self, BackgroundValue, DirectionValue, Size, whole_number};
+pub(super) use choices::{
+    BitDepthValue, BuilderValue, FormatValue, GroundValue, LightsValue, PresetValue, ShadingValue,
+    TextureFilterValue,
+};
 use clap::builder::NonEmptyStringValueParser;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use glam::Vec3;
-use luch::accel::{Builder, Preset};
 use luch::film::Layers;
-use luch::load::{GroundChoice, LightsChoice};
-use luch::output::{BitDepth, Display, Format};
-use luch::shade::Shading;
-use luch::texture::TextureFilter;
+use luch::output::Display;
 use std::num::NonZeroU8;
 use std::path::{Path, PathBuf};
 
@@ -278,142 +280,4 @@ pub(super) struct InfoArguments {
 
     #[command(flatten)]
     pub(super) reading: Reading,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum FormatValue {
-    Png,
-    Exr,
-}
-
-impl From<FormatValue> for Format {
-    fn from(value: FormatValue) -> Format {
-        match value {
-            FormatValue::Png => Format::Png,
-            FormatValue::Exr => Format::Exr,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum BitDepthValue {
-    #[value(name = "8")]
-    Eight,
-    #[value(name = "16")]
-    Sixteen,
-}
-
-impl From<BitDepthValue> for BitDepth {
-    fn from(value: BitDepthValue) -> BitDepth {
-        match value {
-            BitDepthValue::Eight => BitDepth::Eight,
-            BitDepthValue::Sixteen => BitDepth::Sixteen,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum ShadingValue {
-    Flat,
-    Lambert,
-    Phong,
-    BlinnPhong,
-}
-
-impl From<ShadingValue> for Shading {
-    fn from(value: ShadingValue) -> Shading {
-        match value {
-            ShadingValue::Flat => Shading::Flat,
-            ShadingValue::Lambert => Shading::Lambert,
-            ShadingValue::Phong => Shading::Phong,
-            ShadingValue::BlinnPhong => Shading::BlinnPhong,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum LightsValue {
-    File,
-    Default,
-    Both,
-}
-
-impl From<LightsValue> for LightsChoice {
-    fn from(value: LightsValue) -> LightsChoice {
-        match value {
-            LightsValue::File => LightsChoice::File,
-            LightsValue::Default => LightsChoice::Default,
-            LightsValue::Both => LightsChoice::Both,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum GroundValue {
-    Auto,
-    On,
-    Off,
-}
-
-impl From<GroundValue> for GroundChoice {
-    fn from(value: GroundValue) -> GroundChoice {
-        match value {
-            GroundValue::Auto => GroundChoice::Auto,
-            GroundValue::On => GroundChoice::On,
-            GroundValue::Off => GroundChoice::Off,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum TextureFilterValue {
-    Footprint,
-    Point,
-}
-
-impl From<TextureFilterValue> for TextureFilter {
-    fn from(value: TextureFilterValue) -> TextureFilter {
-        match value {
-            TextureFilterValue::Footprint => TextureFilter::Footprint,
-            TextureFilterValue::Point => TextureFilter::Point,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum BuilderValue {
-    Own,
-    Obvhs,
-}
-
-impl From<BuilderValue> for Builder {
-    fn from(value: BuilderValue) -> Builder {
-        match value {
-            BuilderValue::Own => Builder::Own,
-            BuilderValue::Obvhs => Builder::Obvhs,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum PresetValue {
-    Fastest,
-    VeryFast,
-    Fast,
-    Medium,
-    Slow,
-    VerySlow,
-}
-
-impl From<PresetValue> for Preset {
-    fn from(value: PresetValue) -> Preset {
-        match value {
-            PresetValue::Fastest => Preset::Fastest,
-            PresetValue::VeryFast => Preset::VeryFast,
-            PresetValue::Fast => Preset::Fast,
-            PresetValue::Medium => Preset::Medium,
-            PresetValue::Slow => Preset::Slow,
-            PresetValue::VerySlow => Preset::VerySlow,
-        }
-    }
 }
