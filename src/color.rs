@@ -1,6 +1,6 @@
 //! Linear light: Rec. 709 primaries, D65 white, no upper limit.
 
-use std::ops::{Add, AddAssign, Mul, MulAssign};
+use std::ops::{Add, AddAssign, Mul, MulAssign, Sub, SubAssign};
 
 /// A colour or an amount of light in linear Rec. 709.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,6 +44,11 @@ impl Rgb {
         Rgb::new(f(self.r), f(self.g), f(self.b))
     }
 
+    /// Each channel of both by themselves through `f`.
+    pub fn by_channel(self, other: Rgb, f: impl Fn(f32, f32) -> f32) -> Rgb {
+        Rgb::new(f(self.r, other.r), f(self.g, other.g), f(self.b, other.b))
+    }
+
     /// `self` at `share` 0, `other` at 1.
     pub fn mix(self, other: Rgb, share: f32) -> Rgb {
         self * (1.0 - share) + other * share
@@ -77,6 +82,19 @@ impl Add for Rgb {
 impl AddAssign for Rgb {
     fn add_assign(&mut self, other: Rgb) {
         *self = *self + other;
+    }
+}
+
+impl Sub for Rgb {
+    type Output = Rgb;
+    fn sub(self, other: Rgb) -> Rgb {
+        Rgb::new(self.r - other.r, self.g - other.g, self.b - other.b)
+    }
+}
+
+impl SubAssign for Rgb {
+    fn sub_assign(&mut self, other: Rgb) {
+        *self = *self - other;
     }
 }
 

@@ -45,7 +45,7 @@ use transparent::ThroughLayers;
 pub const MAX_LAYERS: u32 = 64;
 
 /// In an environment, where glass shows light from everywhere, a path that went through some is not followed below this
-/// share of its light: rays split at each boundary, and with [`mirror::LEAST_ENERGY`] a vase took far longer.
+/// share of its light: rays split at each boundary, and 8 bits of a display tell no more apart.
 const LEAST_IN_GLASS: f32 = 1.0 / 256.0;
 
 /// What a camera ray brings back.
@@ -75,7 +75,7 @@ pub struct Rules {
     pub max_depth: u32,
     /// Which part of a texture a ray shows.
     pub texture_filter: TextureFilter,
-    /// How many samples a pixel has at least: each sees as much less of it.
+    /// How many samples a pixel has, or may have: up to the fourth, each sees as much less of it.
     pub samples: u32,
 }
 
@@ -112,7 +112,7 @@ pub struct Tracer<'a> {
     further: Paths,
     hits: Vec<Option<Hit>>,
     arrivals: Arrivals,
-    /// From lamps, from surfaces, from the ground: of the last, what is promised to paths.
+    /// From lamps, from surfaces, and from the ground, to whose places those of the last promise.
     shadow_rays: [ShadowRays; 3],
     occluded: Vec<bool>,
     through_layers: ThroughLayers<'a>,

@@ -7,10 +7,10 @@ use super::environment::EnvironmentArguments;
 use super::reading::Reading;
 use super::sampling::SamplingArguments;
 use super::study::StudyArguments;
-use super::values::{self, BackgroundValue, DirectionValue, Size, whole_number};
+use super::values::{self, BackgroundValue, Size, whole_number};
 pub(super) use choices::{
-    BitDepthValue, BuilderValue, FormatValue, GroundValue, LightsValue, PresetValue, ShadingValue,
-    TextureFilterValue,
+    BitDepthValue, BuilderValue, DirectionValue, FormatValue, GroundValue, LightsValue,
+    PresetValue, ShadingValue, TextureFilterValue,
 };
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand};

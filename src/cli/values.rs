@@ -1,11 +1,9 @@
 //! Values on the command line that are more than a number or a word.
 
-use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glam::Vec3;
 use luch::color::{Rgb, srgb_to_linear};
 use luch::film::Layers;
-use luch::framing::Direction;
 use luch::output::Display;
 use luch::scene::{Background, Shown};
 use std::num::NonZeroU8;
@@ -51,30 +49,6 @@ impl FromStr for BackgroundValue {
             "expected a colour of six hex digits, as in '#808080', transparent or environment",
         )?;
         Ok(BackgroundValue(Background::plain(color, Shown::Always)))
-    }
-}
-
-/// A side to frame a model from.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum DirectionValue {
-    Front,
-    Back,
-    Left,
-    Right,
-    Top,
-    ThreeQuarter,
-}
-
-impl From<DirectionValue> for Direction {
-    fn from(value: DirectionValue) -> Direction {
-        match value {
-            DirectionValue::Front => Direction::Front,
-            DirectionValue::Back => Direction::Back,
-            DirectionValue::Left => Direction::Left,
-            DirectionValue::Right => Direction::Right,
-            DirectionValue::Top => Direction::Top,
-            DirectionValue::ThreeQuarter => Direction::ThreeQuarter,
-        }
     }
 }
 

@@ -2,12 +2,11 @@
 
 use super::environment::EnvironmentChoice;
 use super::pose::{Pose, PosedMeshes};
-use super::viewpoint::{self, Choices, PlacedCamera, Surrounding, Viewpoint};
+use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
 use super::{Budget, Model, Warnings};
 use crate::Error;
 use crate::camera::Camera;
 use crate::color::Rgb;
-use crate::environment::Surroundings;
 use crate::error::OutOfMemory;
 use crate::geometry::{Plane, Sphere};
 use crate::light::Light;
@@ -19,7 +18,6 @@ use crate::shade::Shading;
 use crate::texture::TextureFilter;
 use glam::{DAffine3, Vec3};
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// Everything a file holds.
 #[derive(Clone, Debug)]
@@ -174,7 +172,7 @@ impl Asset {
         looked_at.map_err(|problem| problem.of(&self.file, "the scene"))?;
         let framed = viewpoint::camera(self, &cameras, viewpoint, &scene, &mut choices)?;
         scene.camera = framed.camera;
-        let environment = self.environment(viewpoint, &mut choices)?;
+        let environment = viewpoint::environment(self, viewpoint, &mut choices)?;
         viewpoint::light(
             self,
             viewpoint,
@@ -191,29 +189,6 @@ impl Asset {
         };
         let scene = Scene::new_within(scene, self.budget.left()).map_err(in_file)?;
         Ok((scene, choices))
-    }
-
-    /// The environment that the viewpoint, the file or the default gives.
-    fn environment(
-        &self,
-        viewpoint: &Viewpoint,
-        choices: &mut Choices,
-    ) -> Result<Option<Arc<Surroundings>>, Error> {
-        let asked = match &viewpoint.environment {
-            Surrounding::Ready(environment) => return Ok(environment.clone()),
-            Surrounding::Asked(choice) => choice.or(&self.environment),
-        };
-        let choice = if self.is_scene_file {
-            asked
-        } else {
-            asked.or(&EnvironmentChoice::of_models())
-        };
-        let mut warnings = Warnings::default();
-        let environment = choice.surroundings(&self.budget, &mut warnings)?;
-        choices
-            .lines
-            .extend(warnings.iter().map(ToString::to_string));
-        Ok(environment)
     }
 
     /// The cameras of its models as they stand at the beginning, in the order in which a user may ask for them by index.

@@ -1,12 +1,14 @@
 //! How an asset is to be looked at, and what was chosen where neither the file nor the user said.
 
 mod cameras;
+mod environment;
 mod faces;
 mod ground;
 mod lights;
 
 pub use cameras::PlacedCamera;
 pub(super) use cameras::{camera, cameras};
+pub(super) use environment::environment;
 pub(super) use faces::bytes_of_faces;
 use faces::faces;
 pub(super) use ground::ground;
@@ -85,7 +87,7 @@ pub enum LightsChoice {
 /// Whether a model stands on a floor that shows its shadow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum GroundChoice {
-    /// Where luch frames it from above and from outside.
+    /// Where it is seen from above and from outside.
     #[default]
     Auto,
     /// Yes.

@@ -101,10 +101,12 @@ impl Scene {
             // Schlick's formula is in it: exact where it stands for Fresnel's alone, tinted or faded as it is.
             (Model::MetallicRoughness(_), _) => {
                 let approximate = relative.map(|m| refraction::schlick(cos_view, m));
-                let exact = by_channel(fresnel, approximate, ratio);
+                let exact = fresnel.by_channel(approximate, ratio);
                 (reflectance.reflectivity * exact).map(|share| share.min(1.0))
             }
-            _ => by_channel(reflectance.reflectivity, fresnel, |a, b| a + (1.0 - a) * b),
+            _ => reflectance
+                .reflectivity
+                .by_channel(fresnel, |a, b| a + (1.0 - a) * b),
         };
         // A coat that faces another way is no part of the surface's mirror.
         let coat = reflectance.layers.and_then(|layers| layers.coat());
@@ -116,19 +118,21 @@ impl Scene {
             Way::Out { .. } => Rgb::BLACK,
             _ => reflectance.gloss,
         };
-        let lost = reflectance.gloss + gloss * -1.0;
+        let lost = reflectance.gloss - gloss;
         let ambient = reflectance.diffuse * (share * access) + lost;
         Some(Through {
             rest: Reflectance {
                 diffuse: reflectance.diffuse * (1.0 - share),
                 // Rounding must not make it less than nothing.
-                ambient: by_channel(reflectance.ambient, ambient, |a, b| (a - b).max(0.0)),
+                ambient: reflectance
+                    .ambient
+                    .by_channel(ambient, |a, b| (a - b).max(0.0)),
                 reflectivity: Rgb::BLACK,
                 gloss,
                 ..*reflectance
             },
             mirrored,
-            passed: color * by_channel(fresnel, mirrored, |a, b| 1.0 - a.max(b)) * below_coat,
+            passed: color * fresnel.by_channel(mirrored, |a, b| 1.0 - a.max(b)) * below_coat,
             way,
         })
     }
@@ -189,11 +193,6 @@ impl Scene {
 /// (nothing from metals); never more than there is.
 fn let_through(diffuse: Rgb, share: f32) -> Rgb {
     diffuse.map(|channel| (channel * share).min(1.0))
-}
-
-/// Each channel of two colours by themselves through `f`.
-fn by_channel(a: Rgb, b: Rgb, f: impl Fn(f32, f32) -> f32) -> Rgb {
-    Rgb::new(f(a.r, b.r), f(a.g, b.g), f(a.b, b.b))
 }
 
 /// `a / b`, 1 where there is no `b`.

@@ -127,7 +127,7 @@ fn unshadowed(
     if shading == Shading::Lambert {
         return surface.diffuse * irradiance;
     }
-    let matt = (surface.ambient + surface.gloss * -1.0).map(|channel| channel.max(0.0));
+    let matt = (surface.ambient - surface.gloss).map(|channel| channel.max(0.0));
     if surface.gloss == Rgb::BLACK {
         return matt * irradiance;
     }
@@ -152,15 +152,10 @@ pub(super) fn off(point: &SurfacePoint) -> Vec3 {
 
 /// Channel by channel `a / b`, zero where there is no `b`.
 pub(super) fn over(a: Rgb, b: Rgb) -> Rgb {
-    by_channel(a, b, |a, b| if b > 0.0 { a / b } else { 0.0 })
+    a.by_channel(b, |a, b| if b > 0.0 { a / b } else { 0.0 })
 }
 
 /// The channels of `light` in which `sum` is nothing.
 fn where_zero(sum: Rgb, light: Rgb) -> Rgb {
-    by_channel(sum, light, |sum, light| if sum > 0.0 { 0.0 } else { light })
-}
-
-/// Each channel of two colours by themselves through `f`.
-pub(super) fn by_channel(a: Rgb, b: Rgb, f: impl Fn(f32, f32) -> f32) -> Rgb {
-    Rgb::new(f(a.r, b.r), f(a.g, b.g), f(a.b, b.b))
+    sum.by_channel(light, |sum, light| if sum > 0.0 { 0.0 } else { light })
 }

@@ -1,7 +1,7 @@
 //! The ground that catches shadows: what lies behind it is seen by the share of light that reaches it.
 
 use super::batch::{FROM_GROUND, Path, Promised};
-use super::environment::{before, by_channel, over};
+use super::environment::{before, over};
 use super::{Sample, Tracer};
 use crate::color::Rgb;
 use crate::light::{Illumination, Lamp};
@@ -64,9 +64,13 @@ impl Tracer<'_> {
         for index in 0..self.grounded.len() {
             let at = self.grounded[index];
             let presence = ground.presence(at.position);
-            let shadow = by_channel(at.arrived, at.all, |arrived, all| {
-                if all > 0.0 { 1.0 - arrived / all } else { 0.0 }
-            });
+            let shadow =
+                at.arrived.by_channel(
+                    at.all,
+                    |arrived, all| {
+                        if all > 0.0 { 1.0 - arrived / all } else { 0.0 }
+                    },
+                );
             let seen = shadow.map(|shadow| 1.0 - presence * shadow.max(0.0));
             self.see_past(at.path, at.energy * seen, samples);
         }
@@ -145,7 +149,7 @@ impl Tracer<'_> {
             },
         );
         self.statistics.mirror_rays += 1;
-        self.grounded[index].energy += energy * -1.0;
+        self.grounded[index].energy -= energy;
     }
 
     /// Adds what path number `index` sees where it meets nothing more, with this energy.

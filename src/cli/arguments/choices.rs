@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use luch::accel::{Builder, Preset};
+use luch::framing::Direction;
 use luch::load::{GroundChoice, LightsChoice};
 use luch::output::{BitDepth, Format};
 use luch::shade::Shading;
@@ -141,6 +142,30 @@ impl From<PresetValue> for Preset {
             PresetValue::Medium => Preset::Medium,
             PresetValue::Slow => Preset::Slow,
             PresetValue::VerySlow => Preset::VerySlow,
+        }
+    }
+}
+
+/// A side to frame a model from.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(in crate::cli) enum DirectionValue {
+    Front,
+    Back,
+    Left,
+    Right,
+    Top,
+    ThreeQuarter,
+}
+
+impl From<DirectionValue> for Direction {
+    fn from(value: DirectionValue) -> Direction {
+        match value {
+            DirectionValue::Front => Direction::Front,
+            DirectionValue::Back => Direction::Back,
+            DirectionValue::Left => Direction::Left,
+            DirectionValue::Right => Direction::Right,
+            DirectionValue::Top => Direction::Top,
+            DirectionValue::ThreeQuarter => Direction::ThreeQuarter,
         }
     }
 }
