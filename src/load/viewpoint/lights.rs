@@ -40,7 +40,8 @@ pub(in crate::load) fn light(
         return;
     }
     if scene.lights.is_empty() {
-        let name = match (&scene.environment, framed.is_enclosed) {
+        let wants_lamp = framed.is_enclosed && lights != LightsChoice::File;
+        let name = match (&scene.environment, wants_lamp) {
             (_, true) => {
                 scene.lights.push(lamp(framed));
                 scene.ambient = INDOORS_AMBIENT;
