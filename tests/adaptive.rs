@@ -129,8 +129,8 @@ fn outside_models_are_those_of_64_samples_for_a_third_of_the_rays() {
         };
         let scene = opened(path);
         let (all, display) = (of_model(false), Display::PbrNeutral);
-        // Soft shadows on the ground are many faint edges, of which 4 samples miss some: they miss the 0.001 of figure 5.
-        assert_close(name, &scene, [240, 180], all, display, 0.02);
+        // 0.13 %, 0.13 % and 0.06 % were measured, most of them along the faint edges of soft shadows (2026-11-22).
+        assert_close(name, &scene, [240, 180], all, display, 0.0015);
     }
 }
 

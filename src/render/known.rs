@@ -18,13 +18,14 @@ impl Known {
         &self,
         [width, height]: [u32; 2],
         [i, j]: [u32; 2],
+        round: u32,
         tolerance: u32,
     ) -> bool {
         let at = |i: u32, j: u32| self.records.get(j as usize * width as usize + i as usize);
         let Some(record) = at(i, j) else { return false };
         let around = |along: u32, size: u32| along.saturating_sub(1)..(along + 2).min(size);
         let mut neighbours = around(j, height).flat_map(|j| around(i, width).map(move |i| (i, j)));
-        record.needs_more(tolerance)
+        record.needs_more(round, tolerance)
             || neighbours
                 .any(|(i, j)| at(i, j).is_some_and(|it| record.differs_from(it, tolerance)))
     }

@@ -101,9 +101,9 @@ impl<'a> Painter<'a> {
             let &[from, to] = stop else { continue };
             if from > BASE {
                 let records = &self.pixels.records;
-                let tolerance = rendering.tolerance;
+                let (round, tolerance) = (rendering.round, rendering.tolerance);
                 self.active
-                    .retain(|&index| records[index].needs_more(tolerance));
+                    .retain(|&index| records[index].needs_more(round, tolerance));
             }
             if self.active.is_empty() {
                 break;
@@ -157,8 +157,9 @@ impl<'a> Painter<'a> {
             tile_side,
             ..
         } = *self.rendering.settings;
+        let (round, tolerance) = (self.rendering.round, self.rendering.tolerance);
         for [i, j] in tile.tiles(tile_side).flat_map(Tile::pixels) {
-            if !known.needs_more([width, height], [i, j], self.rendering.tolerance) {
+            if !known.needs_more([width, height], [i, j], round, tolerance) {
                 continue;
             }
             let index = j as usize * width as usize + i as usize;

@@ -73,14 +73,15 @@ impl Record {
         self.torn |= self.object != sample.object || !same_side(self.normal, normal);
     }
 
-    /// Whether one sample more, like one of those that the pixel has, could change it by more than `tolerance` of the 256
-    /// steps that can be seen; and where few samples see several things, whatever their light.
-    pub(super) fn needs_more(&self, tolerance: u32) -> bool {
-        self.torn && self.samples <= BASE
-            || differ(&self.least, &self.greatest, self.samples * tolerance)
+    /// Whether one round of samples more, like one of those that the pixel has, could change it by more than `tolerance` of
+    /// the 256 steps that can be seen; and where few samples see several things, whatever their light.
+    pub(super) fn needs_more(&self, round: u32, tolerance: u32) -> bool {
+        let rounds = self.samples / round;
+        self.torn && self.samples <= BASE || differ(&self.least, &self.greatest, rounds * tolerance)
     }
 
-    /// Whether something ends between this pixel and another: objects, sides, or light differ.
+    /// Whether something ends between this pixel and another: objects, sides, or light differ. Light by half as much as
+    /// among the samples themselves: what ends is seen by less than all of them.
     pub(super) fn differs_from(&self, other: &Record, tolerance: u32) -> bool {
         let least = std::array::from_fn(|i| self.least[i].min(other.least[i]));
         let greatest = std::array::from_fn(|i| self.greatest[i].max(other.greatest[i]));
@@ -103,8 +104,8 @@ impl Record {
     }
 }
 
-/// What of a light and its alpha meets the eye, in 256 steps: its colour as a display may show it, whatever the exposure: half of the
-/// steps are for what is darker than 1/3.
+/// What of a light and its alpha meets the eye, in 256 steps: its colour as a display may show it, whatever the exposure:
+/// half of the steps are for what is darker than 1/3.
 fn seen([r, g, b, alpha]: [f32; 4]) -> [u8; 4] {
     // No number counts as nothing.
     let shown = |light: f32| {
