@@ -1,7 +1,7 @@
 //! What the targets share: bytes become files in a folder, and files a picture.
 
 use luch::accel::{Accel, Options as AccelOptions};
-use luch::load::{self, Options, Viewpoint};
+use luch::load::{self, Options, Surrounding, Viewpoint};
 use luch::render::{Progress, Settings, render};
 use luch::shade::Shading;
 use std::fs;
@@ -25,6 +25,12 @@ const TEXTURED: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes
 {"bufferView":0,"componentType":5126,"type":"VEC3","count":3},{"bufferView":0,"componentType":5126,"type":"VEC2","count":3}],
 "bufferViews":[{"buffer":0,"byteLength":36}],
 "buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
+
+/// A ball lit by `environment.EXTENSION`.
+const LIT: &str = r#"material = [{ name = "white", diffuse = [1, 1, 1] }]
+sphere = [{ center = [0, 0, 0], radius = 1, material = "white" }]
+camera = { position = [0, 0, 4], look_at = [0, 0, 0] }
+environment = { kind = "file", path = "environment.EXTENSION" }"#;
 
 /// Opens, builds and renders the first of these files, all of which lie in one folder.
 pub fn files(files: &[(&str, &[u8])]) {
@@ -54,6 +60,13 @@ pub fn image(extension: &str, bytes: &[u8]) {
     files(&[("textured.gltf", gltf.as_bytes()), (&image, bytes)]);
 }
 
+/// A ball in an environment with these bytes for its picture.
+pub fn environment(extension: &str, bytes: &[u8]) {
+    let scene = LIT.replace("EXTENSION", extension);
+    let picture = format!("environment.{extension}");
+    files(&[("lit.toml", scene.as_bytes()), (&picture, bytes)]);
+}
+
 /// What stands before and after the first zero.
 pub fn halves(bytes: &[u8]) -> (&[u8], &[u8]) {
     let end = bytes.iter().position(|&byte| byte == 0);
@@ -71,7 +84,11 @@ fn opened(path: &Path) {
         Err(error) => return one_line(&error.to_string()),
     };
     asset.warnings.iter().for_each(|w| one_line(&w.to_string()));
-    let viewpoint = Viewpoint::of_file(1.0);
+    // Scenes say what is about them; the studio of models takes time, and is always the same.
+    let mut viewpoint = Viewpoint::of_file(1.0);
+    if !asset.is_scene_file {
+        viewpoint.environment = Surrounding::Ready(None);
+    }
     let (scene, choices) = match asset.scene(0.0, &viewpoint) {
         Ok(made) => made,
         Err(error) => return one_line(&error.to_string()),
