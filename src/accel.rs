@@ -24,10 +24,12 @@ mod wide;
 pub use cost::Tests;
 pub use kernel::{Isa, IsaError};
 pub use options::{Builder, Layout, Options, Preset};
+pub use somewhere::Shadow;
 
 use crate::geometry::{Hit, Plane};
 use crate::ray::Ray;
 use crate::scene::{InstanceSpace, Scene};
+use glam::Vec3;
 use items::{ItemsOfWorld, of_shared};
 use kernel::{Best, Scratch};
 use others::{Other, Others};
@@ -188,6 +190,12 @@ impl Accel {
     /// False only where a ray meets nothing: quick, and not exact.
     pub fn may_meet(&self, ray: &Ray) -> bool {
         self.anything.may_be_met(ray)
+    }
+
+    /// Where on the plane `y = height` things may stand before a light that is infinitely far in the unit direction
+    /// `to_light`, which points up: quick, and not exact.
+    pub fn shadow(&self, height: f32, to_light: Vec3) -> Shadow {
+        self.anything.shadow(height, to_light)
     }
 
     /// Whether the ray may meet such a thing; it does not where this is false.

@@ -8,6 +8,7 @@ mod equirect;
 mod level;
 mod lobe;
 mod median_cut;
+mod octahedral;
 mod prefilter;
 mod sky;
 mod studio;
@@ -22,6 +23,7 @@ use glam::Vec3;
 use level::Level;
 use lobe::Lobe;
 use median_cut::Part;
+use octahedral::Octahedral;
 use prefilter::prefiltered;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -66,8 +68,10 @@ pub struct DistantLight {
 /// An environment made ready.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
+    /// As it is.
+    sharp: Arc<Level>,
     /// As seen through ever wider lobes, of the roughnesses squared in [`LEVELS`].
-    levels: Arc<[Level]>,
+    rough: Arc<[Octahedral]>,
     /// For each number of rounds the lights of each round.
     rounds: Arc<[Vec<Vec<DistantLight>>]>,
     /// Cosine and sine of the angle that it is turned.
@@ -75,9 +79,8 @@ pub struct Surroundings {
     intensity: f32,
 }
 
-/// Roughness squared of each level after the first, which is the picture itself, how many columns the level has, and of
-/// how many it is made. Each lobe is twice as wide as the one before, so half the pixels are enough, down to what
-/// interpolates smoothly.
+/// Roughness squared of each lobe, how many columns the picture that is seen through it has, and of how many it is made.
+/// Each lobe is twice as wide as the one before, so half the pixels are enough, down to what interpolates smoothly.
 const LEVELS: [(f32, u32, u32); 7] = [
     (1.0 / 64.0, 512, 512),
     (1.0 / 32.0, 256, 256),
@@ -103,7 +106,9 @@ impl Surroundings {
         let of_width = |width: u32| fine.resized(width, width / 2);
         let filtered = |&(alpha, width, source): &(f32, u32, u32)| {
             let lobe = Lobe::of_alpha(alpha.into());
-            Level::new(prefiltered(&of_width(source), width, &lobe))
+            let seen = Level::new(prefiltered(&of_width(source), width, &lobe));
+            // About as many pixels, all of about one size.
+            Octahedral::of(width / 4 * 3, |d| seen.at(position(d)))
         };
         let (mut parts, rough) = rayon::join(
             || median_cut::lights(&of_width(CUT), environment.lights.clamp(1, MAX_LIGHTS)),
@@ -115,7 +120,8 @@ impl Surroundings {
             finite(environment.rotation),
         );
         let mut surroundings = Surroundings {
-            levels: std::iter::once(Level::new(picture)).chain(rough).collect(),
+            sharp: Arc::new(Level::new(picture)),
+            rough: Arc::from(rough),
             rounds: Arc::from([]),
             turn: (libm::cosf(rotation), libm::sinf(rotation)),
             intensity,
@@ -134,10 +140,10 @@ impl Surroundings {
     /// as a matt surface does. Continuous in both.
     pub fn radiance(&self, d: Vec3, roughness: f32) -> Rgb {
         let alpha = roughness.clamp(0.0, 1.0) * roughness.clamp(0.0, 1.0);
-        let at = position(self.to_picture(d));
-        let level = |index: usize| match self.levels.get(index) {
-            Some(level) => level.at(at),
-            None => Rgb::BLACK,
+        let d = self.to_picture(d);
+        let level = |index: usize| match index.checked_sub(1) {
+            None => self.sharp.at(position(d)),
+            Some(index) => self.rough(index, d),
         };
         let mut below = 0.0;
         for (index, (above, ..)) in LEVELS.into_iter().enumerate() {
@@ -146,22 +152,24 @@ impl Surroundings {
                 let radiance = match share {
                     // Most lookups are of sharp mirrors.
                     0.0 => level(index),
+                    1.0 => level(index + 1),
                     _ => level(index).mix(level(index + 1), share),
                 };
                 return radiance * self.intensity;
             }
             below = above;
         }
-        self.irradiance(d)
+        self.rough(LEVELS.len() - 1, d) * self.intensity
     }
 
     /// What a white matt surface of unit normal `n` shows of all of it where nothing is in the way: irradiance over π.
     pub fn irradiance(&self, n: Vec3) -> Rgb {
-        let roughest = self
-            .levels
-            .last()
-            .map(|level| level.at(position(self.to_picture(n))));
-        roughest.unwrap_or_default() * self.intensity
+        self.rough(LEVELS.len() - 1, self.to_picture(n)) * self.intensity
+    }
+
+    /// As seen through one of the lobes, in the space of the picture.
+    fn rough(&self, lobe: usize, d: Vec3) -> Rgb {
+        self.rough.get(lobe).map_or(Rgb::BLACK, |seen| seen.at(d))
     }
 
     /// The lights of one of `rounds` rounds (1 to [`MAX_ROUNDS`], and no more than there are lights; others count as the

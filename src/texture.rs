@@ -4,9 +4,10 @@ mod checker;
 mod footprint;
 mod lookup;
 mod pyramid;
+mod texels;
 
 pub use checker::Checker;
-pub use footprint::Footprint;
+pub use footprint::{Footprint, Taps};
 pub use pyramid::{Fourth, Pyramid};
 
 use glam::Mat3;

@@ -118,6 +118,8 @@ pub struct Tracer<'a> {
     through_layers: ThroughLayers<'a>,
     lit: Vec<Lit>,
     grounded: Vec<Grounded>,
+    /// Which of these may lie in shadow.
+    shaded: Vec<usize>,
     recent: Recent,
 }
 
@@ -140,6 +142,7 @@ impl<'a> Tracer<'a> {
             through_layers: ThroughLayers::default(),
             lit: Vec::new(),
             grounded: Vec::new(),
+            shaded: Vec::new(),
             recent: Recent::default(),
         }
     }

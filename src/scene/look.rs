@@ -6,21 +6,20 @@ use super::mix::Vertex;
 use crate::color::Rgb;
 use crate::material::{Alpha, AlphaChannel, AlphaMode, Material, Model, NormalMap, Textured};
 use crate::shade::{Reflectance, facets, gloss};
-use crate::texture::{Footprint, TextureUse};
+use crate::texture::TextureUse;
 use glam::{Vec3, Vec4};
 
 impl Scene {
     pub(super) fn look_up(&self, used: &TextureUse, vertex: &Vertex) -> [f32; 4] {
         let set = usize::from(used.uv_set != 0);
-        let (uv, footprint) = (vertex.uvs[set], vertex.footprints[set]);
-        let uv = used
-            .transform
-            .map_or(uv, |transform| transform.transform_point2(uv));
+        let uv = used.transform.map_or(vertex.uvs[set], |transform| {
+            transform.transform_point2(vertex.uvs[set])
+        });
         let Some(texture) = self.textures.get(used.texture as usize) else {
             return [1.0; 4];
         };
         match self.pyramids.get(used.texture) {
-            Some(pyramid) => texture.sample_over(pyramid, uv, &carried(footprint, used)),
+            Some(pyramid) => texture.sample_over(pyramid, uv, &vertex.taps(used, &texture.image)),
             None => texture.sample(uv),
         }
     }
@@ -31,8 +30,7 @@ impl Scene {
         let (Some(texture), Some(_)) = (textures, self.pyramids.get(used.texture)) else {
             return 0.0;
         };
-        let footprint = vertex.footprints[usize::from(used.uv_set != 0)];
-        texture.level(&carried(footprint, used)).clamp(0.0, 1.0)
+        vertex.taps(used, &texture.image).blurred()
     }
 
     pub(super) fn color(&self, textured: &Textured<Rgb>, vertex: &Vertex) -> Rgb {
@@ -140,16 +138,6 @@ impl Scene {
             z * 2.0 - 1.0,
         );
         (t * x + b * y + n * z).normalize_or(n)
-    }
-}
-
-/// A footprint in the texture's own coordinates.
-fn carried(footprint: Footprint, used: &TextureUse) -> Footprint {
-    let Some(transform) = used.transform else {
-        return footprint;
-    };
-    Footprint {
-        axes: footprint.axes.map(|axis| transform.transform_vector2(axis)),
     }
 }
 

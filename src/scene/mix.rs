@@ -3,8 +3,9 @@
 use super::PlacedInstance;
 use crate::geometry::Triangle;
 use crate::mesh::Mesh;
-use crate::texture::Footprint;
+use crate::texture::{Footprint, Image, Taps, TextureUse};
 use glam::{Vec2, Vec3, Vec4};
+use std::cell::Cell;
 use std::ops::{Add, Mul};
 
 /// What a material gives its textures: what is interpolated over a primitive, neutral where the mesh says nothing.
@@ -13,14 +14,42 @@ pub(super) struct Vertex {
     /// What the ray sees around them.
     pub(super) footprints: [Footprint; 2],
     pub(super) color: [f32; 4],
+    /// The last of [`Vertex::taps`], and which set and size it is of: most materials have textures of one size.
+    taps: Cell<Option<(Size, Taps)>>,
 }
 
-/// Where the mesh says nothing.
-pub(super) const NEUTRAL: Vertex = Vertex {
-    uvs: [Vec2::ZERO; 2],
-    footprints: [Footprint::POINT; 2],
-    color: [1.0; 4],
-};
+/// A set of texture coordinates, and the width and height of an image.
+type Size = (u8, u32, u32);
+
+impl Vertex {
+    /// Where the mesh says nothing.
+    pub(super) fn neutral() -> Vertex {
+        Vertex {
+            uvs: [Vec2::ZERO; 2],
+            footprints: [Footprint::POINT; 2],
+            color: [1.0; 4],
+            taps: Cell::new(None),
+        }
+    }
+
+    /// Where an image is looked up.
+    pub(super) fn taps(&self, used: &TextureUse, image: &Image) -> Taps {
+        let footprint = self.footprints[usize::from(used.uv_set != 0)];
+        if let Some(transform) = used.transform {
+            let axes = footprint.axes.map(|axis| transform.transform_vector2(axis));
+            return Footprint { axes }.taps(image.width, image.height);
+        }
+        let asked = (used.uv_set, image.width, image.height);
+        match self.taps.get() {
+            Some((known, taps)) if known == asked => taps,
+            _ => {
+                let taps = footprint.taps(image.width, image.height);
+                self.taps.set(Some((asked, taps)));
+                taps
+            }
+        }
+    }
+}
 
 /// A point of a triangle, by the weights of its corners.
 pub(super) struct Mix<'a> {
@@ -104,7 +133,7 @@ impl<'a> Mix<'a> {
     /// What textures are looked up with, at a point.
     pub(super) fn vertex(&self) -> Vertex {
         let [first, second] = &self.mesh.uvs;
-        let mut vertex = NEUTRAL;
+        let mut vertex = Vertex::neutral();
         vertex.uvs[0] = self.mixed(first, Vec2::ZERO);
         if !second.is_empty() {
             vertex.uvs[1] = self.mixed(second, Vec2::ZERO);

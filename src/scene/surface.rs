@@ -2,7 +2,7 @@
 
 use super::cone::on_surface;
 use super::microfacets::Facing;
-use super::mix::{Mix, NEUTRAL};
+use super::mix::{Mix, Vertex};
 use super::{InstanceSpace, Primitive, Recent, Scene, Through};
 use crate::color::Rgb;
 use crate::geometry::{Hit, SurfacePoint, Triangle};
@@ -174,7 +174,9 @@ impl Scene {
             }
         };
         let material = self.material(index);
-        let mut vertex = on.as_ref().map_or(NEUTRAL, |(_, mix)| mix.vertex());
+        let mut vertex = on
+            .as_ref()
+            .map_or_else(Vertex::neutral, |(_, mix)| mix.vertex());
         let seen = (width > 0.0).then(|| on_surface(ray.direction, place.point.normal, width));
         if let (Some(seen), Some((instance, mix))) = (seen, &on) {
             let seen = match &instance.space {

@@ -14,7 +14,7 @@
 //!   surface fades as anywhere (see `shade::microfacet`), what goes through stays sharp, and so does the mirror
 //!   within a body, without which its total reflections would be dark.
 
-use super::mix::{Mix, NEUTRAL, Vertex};
+use super::mix::{Mix, Vertex};
 use super::{Primitive, Scene};
 use crate::color::Rgb;
 use crate::geometry::Hit;
@@ -182,7 +182,7 @@ impl Scene {
     /// What textures are looked up with at a hit.
     pub(super) fn vertex(&self, hit: &Hit) -> Vertex {
         let Primitive::Triangle { instance, triangle } = self.primitive(hit.primitive) else {
-            return NEUTRAL;
+            return Vertex::neutral();
         };
         let mesh = self.mesh(self.instances[instance].mesh);
         Mix::new(mesh, triangle, hit.barycentric).vertex()

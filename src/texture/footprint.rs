@@ -11,13 +11,28 @@ pub struct Footprint {
 
 /// Where a texture is looked up for a footprint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Taps {
+pub struct Taps {
     /// How many lookups, side by side.
     pub(super) count: u32,
     /// From one to the next, in texture coordinates.
     pub(super) step: Vec2,
-    /// The binary logarithm of how many pixels across each of them averages.
+    /// The binary logarithm of how many pixels across each of them averages: the level of the pyramid, 0 being the image
+    /// itself.
     pub(super) level: f32,
+}
+
+impl Taps {
+    /// The very point, in the image itself.
+    pub(super) const POINT: Taps = Taps {
+        count: 1,
+        step: Vec2::ZERO,
+        level: 0.0,
+    };
+
+    /// How much of what one sees is a mean of many pixels, 0..1: the share of the pyramid's levels in it.
+    pub fn blurred(&self) -> f32 {
+        self.level.clamp(0.0, 1.0)
+    }
 }
 
 /// The most lookups for one footprint: a longer one is blurred. As graphics cards have it.
@@ -32,7 +47,7 @@ impl Footprint {
     /// The lookups in an image of `width x height` pixels: side by side along the longer axis, each as wide as the shorter
     /// one (Heckbert 1989, "Fundamentals of Texture Mapping and Image Warping", has the ellipse; McCormack et al. 1999,
     /// "Feline: Fast Elliptical Lines for Anisotropic Texture Mapping", the lookups along a line).
-    pub(super) fn taps(&self, width: u32, height: u32) -> Taps {
+    pub fn taps(&self, width: u32, height: u32) -> Taps {
         let size = Vec2::new(width as f32, height as f32);
         let [a, b] = self.axes.map(|axis| axis * size);
         let (p, q, r) = (a.length_squared(), b.length_squared(), a.dot(b));
@@ -41,18 +56,13 @@ impl Footprint {
         let length = (across * across + along * along).sqrt();
         let [longest2, shortest2] = [0.5 * (p + q + length), 0.5 * (p + q - length)];
         if longest2 <= 1.0 {
-            return Taps {
-                count: 1,
-                step: Vec2::ZERO,
-                level: 0.0,
-            };
+            return Taps::POINT;
         }
         if !longest2.is_finite() {
             // All of the image.
             return Taps {
-                count: 1,
-                step: Vec2::ZERO,
                 level: f32::INFINITY,
+                ..Taps::POINT
             };
         }
         let (longest, shortest) = (longest2.sqrt(), shortest2.max(1.0).sqrt());

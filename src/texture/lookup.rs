@@ -1,170 +1,116 @@
 //! What a texture shows at a point, and over a footprint.
 
-use super::{Encoding, Filter, Footprint, Image, Pixels, Pyramid, Texture, Wrap};
+use super::footprint::Taps;
+use super::texels::{Texel, Texels};
+use super::{Encoding, Filter, Image, Pixels, Pyramid, Texture};
 use crate::color::srgb_to_linear;
-use glam::{Vec2, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use std::sync::LazyLock;
+
+/// Where between two levels of a texture something is looked up.
+struct Between<'a> {
+    below: (&'a Image, Filter),
+    /// The next level, if any, and how much of it is in what one sees.
+    above: Option<(&'a Image, f32)>,
+}
 
 impl Texture {
     /// The linear colour and alpha at `uv`, (0, 0) being the upper left corner of the image.
     pub fn sample(&self, uv: Vec2) -> [f32; 4] {
-        self.texel(&self.image, self.filter, uv).to_array()
-    }
-
-    /// The mean linear colour and alpha of what `footprint` covers around `uv`; where that is no more than a pixel, the
-    /// bits of [`Texture::sample`]. `pyramid` is that of the image.
-    pub fn sample_over(&self, pyramid: &Pyramid, uv: Vec2, footprint: &Footprint) -> [f32; 4] {
-        let taps = footprint.taps(self.image.width, self.image.height);
-        if taps.count == 1 {
-            return self.at_level(pyramid, uv, taps.level).to_array();
-        }
-        let middle = (taps.count - 1) as f32 * 0.5;
-        let mut sum = Vec4::ZERO;
-        for tap in 0..taps.count {
-            let uv = uv + taps.step * (tap as f32 - middle);
-            sum += self.at_level(pyramid, uv, taps.level);
-        }
-        (sum / taps.count as f32).to_array()
-    }
-
-    /// The level of the pyramid that [`Texture::sample_over`] looks at, 0 for the image itself.
-    pub fn level(&self, footprint: &Footprint) -> f32 {
-        footprint.taps(self.image.width, self.image.height).level
-    }
-
-    /// Between the two levels of a pyramid that are nearest: 0 is the image itself.
-    fn at_level(&self, pyramid: &Pyramid, uv: Vec2, level: f32) -> Vec4 {
-        let level = level.min(pyramid.levels().len() as f32);
-        if level <= 0.0 {
-            return self.texel(&self.image, self.filter, uv);
-        }
-        let (below, share) = (level as usize, level - level.trunc());
-        let at = |level: usize| match level.checked_sub(1) {
-            None => self.texel(&self.image, self.filter, uv),
-            // Only a pixel that is drawn large has hard edges.
-            Some(index) => match pyramid.levels().get(index) {
-                Some(image) => self.texel(image, Filter::Linear, uv),
-                None => Vec4::ZERO,
-            },
+        let between = Between {
+            below: (&self.image, self.filter),
+            above: None,
         };
-        if share == 0.0 {
-            return at(below);
-        }
-        at(below) * (1.0 - share) + at(below + 1) * share
+        self.mean(&between, uv, &Taps::POINT)
     }
 
-    /// The linear colour and alpha of one of the texture's images.
-    fn texel(&self, image: &Image, filter: Filter, uv: Vec2) -> Vec4 {
-        let bytes = |[r, g, b, a]: [u8; 4]| Vec4::new(r.into(), g.into(), b.into(), a.into());
-        let words = |[r, g, b, a]: [u16; 4]| Vec4::new(r.into(), g.into(), b.into(), a.into());
-        match (&image.pixels, self.encoding) {
-            (Pixels::Eight(pixels), Encoding::Srgb) => {
+    /// The mean linear colour and alpha of what `taps` cover around `uv`; where that is no more than a pixel, the bits of
+    /// [`Texture::sample`]. `pyramid` is that of the image.
+    pub fn sample_over(&self, pyramid: &Pyramid, uv: Vec2, taps: &Taps) -> [f32; 4] {
+        let levels = pyramid.levels();
+        let level = taps.level.min(levels.len() as f32).max(0.0);
+        // Level 0 is the image itself.
+        let number = level as usize;
+        let share = level - number as f32;
+        let above = levels.get(number).filter(|_| share > 0.0);
+        let below = number.checked_sub(1).and_then(|index| levels.get(index));
+        let between = Between {
+            // Only a pixel that is drawn large has hard edges.
+            below: below.map_or((&self.image, self.filter), |image| (image, Filter::Linear)),
+            above: above.map(|image| (image, share)),
+        };
+        self.mean(&between, uv, taps)
+    }
+
+    fn mean(&self, between: &Between, uv: Vec2, taps: &Taps) -> [f32; 4] {
+        // Whole numbers are blended as they are and made shares at the end: what is 1 all around stays it.
+        let mean = match (&between.below.0.pixels, self.encoding) {
+            (Pixels::Eight(_), Encoding::Srgb) => {
                 let linear = &*SRGB_TO_LINEAR;
-                self.filtered((image, filter), uv, pixels, |[r, g, b, a]| {
-                    let [r, g, b] = [linear[r as usize], linear[g as usize], linear[b as usize]];
-                    Vec4::new(r, g, b, f32::from(a) / 255.0)
+                let decode = |[r, g, b, a]: [u8; 4]| {
+                    let light = |byte: u8| linear[usize::from(byte)];
+                    Vec4::new(light(r), light(g), light(b), a.into())
+                };
+                self.blend(between, uv, taps, decode) / Vec3::ONE.extend(255.0)
+            }
+            (Pixels::Eight(_), Encoding::Linear) => {
+                self.blend(between, uv, taps, <[u8; 4]>::numbers) / 255.0
+            }
+            (Pixels::Sixteen(_), Encoding::Srgb) => {
+                self.blend(between, uv, taps, |texel: [u16; 4]| {
+                    let [r, g, b, a] = (texel.numbers() / 65535.0).to_array();
+                    Vec4::new(srgb_to_linear(r), srgb_to_linear(g), srgb_to_linear(b), a)
                 })
             }
-            (Pixels::Eight(pixels), Encoding::Linear) => {
-                self.filtered((image, filter), uv, pixels, |texel| bytes(texel) / 255.0)
+            (Pixels::Sixteen(_), Encoding::Linear) => {
+                self.blend(between, uv, taps, <[u16; 4]>::numbers) / 65535.0
             }
-            (Pixels::Sixteen(pixels), Encoding::Srgb) => {
-                self.filtered((image, filter), uv, pixels, |texel| {
-                    let [x, y, z, w] = (words(texel) / 65535.0).to_array();
-                    Vec4::new(srgb_to_linear(x), srgb_to_linear(y), srgb_to_linear(z), w)
-                })
-            }
-            (Pixels::Sixteen(pixels), Encoding::Linear) => {
-                self.filtered((image, filter), uv, pixels, |texel| words(texel) / 65535.0)
-            }
-        }
+        };
+        mean.to_array()
     }
 
-    /// The nearest pixel or the blend of the nearest four, each through `decode`.
     #[inline(always)]
-    fn filtered<T: Copy + Default>(
+    fn blend<T: Texel>(
         &self,
-        (image, filter): (&Image, Filter),
+        Between { below, above }: &Between,
         uv: Vec2,
-        pixels: &[T],
+        taps: &Taps,
         decode: impl Fn(T) -> Vec4,
     ) -> Vec4 {
-        // A coordinate that is no number shows the first pixel; one too great to have a fraction shows any.
-        let uv = if uv.is_nan() {
-            Vec2::ZERO
-        } else {
-            uv.clamp(Vec2::splat(-1e9), Vec2::splat(1e9))
-        };
-        let (width, height) = (image.width, image.height);
-        let (x, y) = (uv.x * width as f32, uv.y * height as f32);
-        let column = |i| wrapped(i, width, self.wrap[0]);
-        let row = |j| wrapped(j, height, self.wrap[1]) * width as usize;
-        let texel = |at: usize| decode(pixels.get(at).copied().unwrap_or_default());
-        match filter {
-            Filter::Nearest => texel(row(floor(y)) + column(floor(x))),
-            Filter::Linear => {
-                // Pixel centres lie at halves.
-                let (x, y) = (x - 0.5, y - 0.5);
-                let (i, j) = (floor(x), floor(y));
-                let (right_share, bottom_share) = (x - i as f32, y - j as f32);
-                let within = |i: i64, size: u32| (0..i64::from(size) - 1).contains(&i);
-                if within(i, width) && within(j, height) {
-                    // No neighbour is across an edge: the same sums, but for what finds the pixels.
-                    let (first, next) = (j as usize * width as usize + i as usize, width as usize);
-                    let pair = |at: usize| match pixels.get(at..at + 2) {
-                        Some(&[left, right]) => {
-                            decode(left) * (1.0 - right_share) + decode(right) * right_share
-                        }
-                        _ => Vec4::ZERO,
-                    };
-                    let (top, bottom) = (pair(first), pair(first + next));
-                    return top * (1.0 - bottom_share) + bottom * bottom_share;
-                }
-                let [left, right] = [column(i), column(i.saturating_add(1))];
-                let across = |row| {
-                    let (left, right) = (texel(row + left), texel(row + right));
-                    left * (1.0 - right_share) + right * right_share
-                };
-                let (top, bottom) = (across(row(j)), across(row(j.saturating_add(1))));
-                top * (1.0 - bottom_share) + bottom * bottom_share
+        let (image, filter) = below;
+        let below = Texels::new(image, *filter, self.wrap);
+        let above = above.map(|(image, share)| {
+            let texels = Texels::new(image, Filter::Linear, self.wrap);
+            (texels, share)
+        });
+        let at = |uv: Vec2| {
+            let mean = below.at(uv, &decode);
+            match &above {
+                None => mean,
+                Some((above, share)) => mean + (above.at(uv, &decode) - mean) * *share,
             }
+        };
+        if taps.count == 1 {
+            return at(uv);
         }
+        let count = taps.count as f32;
+        let first = uv - taps.step * (0.5 * (count - 1.0));
+        let mut sum = Vec4::ZERO;
+        for tap in 0..taps.count {
+            sum += at(first + taps.step * tap as f32);
+        }
+        sum / count
     }
-}
-
-/// The greatest whole number that is not above `x`, a number that 64 bits can hold.
-#[inline(always)]
-fn floor(x: f32) -> i64 {
-    let toward_zero = x as i64;
-    toward_zero - i64::from(x < toward_zero as f32)
 }
 
 /// The linear light of every byte.
 pub(super) static SRGB_TO_LINEAR: LazyLock<[f32; 256]> =
     LazyLock::new(|| std::array::from_fn(|byte| srgb_to_linear(byte as f32 / 255.0)));
 
-/// The pixel that stands at position `i` of a row of `size`.
-#[inline(always)]
-fn wrapped(i: i64, size: u32, wrap: Wrap) -> usize {
-    let size = i64::from(size).max(1);
-    if (0..size).contains(&i) {
-        return i as usize; // Every way of wrapping leaves it there.
-    }
-    let within = match wrap {
-        Wrap::Repeat => i.rem_euclid(size),
-        Wrap::ClampToEdge => i.clamp(0, size - 1),
-        Wrap::MirroredRepeat => {
-            let there_and_back = i.rem_euclid(2 * size);
-            there_and_back.min(2 * size - 1 - there_and_back)
-        }
-    };
-    within as usize
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::texture::Fourth;
+    use crate::texture::{Footprint, Fourth, Wrap};
     use std::sync::Arc;
 
     fn two_by_one(wrap: Wrap, filter: Filter) -> Texture {
@@ -246,8 +192,8 @@ mod tests {
             let texture = wave(width);
             let pyramid = Pyramid::of(&texture.image, Encoding::Linear, Fourth::Number);
             for pixels in [1.0, 1.5, 2.0, 3.0, 4.7, 6.0] {
-                let footprint = wide(pixels, &texture);
-                let at = |u: f32| texture.sample_over(&pyramid, Vec2::new(u, 0.5), &footprint)[0];
+                let taps = wide(pixels, &texture).taps(width, 3);
+                let at = |u: f32| texture.sample_over(&pyramid, Vec2::new(u, 0.5), &taps)[0];
                 // As smooth across the edge as the wave is steep: 0.4 of its turn in radians.
                 let steps = (0..400).map(|i| (at(i as f32 / 200.0), at((i + 1) as f32 / 200.0)));
                 let step = steps.fold(0.0f32, |most, (a, b)| most.max((b - a).abs()));
@@ -264,7 +210,8 @@ mod tests {
         for pixels in [0.0, 0.1, 0.999] {
             for i in 0..100 {
                 let uv = Vec2::new(i as f32 * 0.0137 - 0.2, 0.4);
-                let found = texture.sample_over(&pyramid, uv, &wide(pixels, &texture));
+                let taps = wide(pixels, &texture).taps(37, 3);
+                let found = texture.sample_over(&pyramid, uv, &taps);
                 assert_eq!(found, texture.sample(uv));
             }
         }
@@ -276,8 +223,8 @@ mod tests {
             let texture = two_by_one(Wrap::Repeat, filter);
             let pyramid = Pyramid::of(&texture.image, Encoding::Linear, Fourth::Number);
             for pixels in [2.0, 50.0, 3e38, f32::NAN] {
-                let footprint = wide(pixels, &texture);
-                let red = texture.sample_over(&pyramid, Vec2::new(0.3, 0.5), &footprint)[0];
+                let taps = wide(pixels, &texture).taps(2, 1);
+                let red = texture.sample_over(&pyramid, Vec2::new(0.3, 0.5), &taps)[0];
                 assert_eq!(red, 128.0 / 255.0, "{filter:?} {pixels}");
             }
         }

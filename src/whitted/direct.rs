@@ -134,7 +134,7 @@ impl Tracer<'_> {
     #[inline(always)]
     fn keep(&mut self, kind: usize, promised: &Promised, light: Rgb, samples: &mut [Sample]) {
         if kind == FROM_GROUND {
-            self.grounded[promised.sample as usize].arrived += light;
+            self.grounded[promised.sample as usize].lost -= light;
         } else {
             samples[promised.sample as usize].color += light;
         }

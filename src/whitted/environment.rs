@@ -7,6 +7,7 @@
 //! lights there are.
 
 use super::batch::{Arrivals, FROM_SURFACES, Path, Promised};
+use super::lanes::{Falling, WIDTH};
 use super::{Sample, Tracer};
 use crate::color::Rgb;
 use crate::environment::{DistantLight, Surroundings};
@@ -22,15 +23,10 @@ const INDIRECT_STRIDES: [u32; 2] = [2, 8];
 /// A surface, ready to be lit by many lights that are infinitely far.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lit {
-    sample: u32,
-    /// Of its round's lights, one of so many is asked.
+    /// Of its round's lights, one of so many is asked: a power of two.
     stride: u32,
     /// Where its shadow rays begin: off the surface, on the viewer's side.
     origin: Vec3,
-    /// The surface's own.
-    true_normal: Vec3,
-    /// The one that shading sees.
-    normal: Vec3,
     /// What it would send back of all the environment's light, over what arrives from those lights.
     answer: Rgb,
 }
@@ -50,21 +46,28 @@ impl Tracer<'_> {
         let lights = environment.lights(number, self.rules.rounds());
         self.prepare(environment, lights, arrivals, samples);
         for (number, light) in (0..).zip(lights) {
-            for lit in &self.lit {
-                let l = light.to_light;
-                if number % lit.stride == 0
-                    && lit.normal.dot(l) > 0.0
-                    && lit.true_normal.dot(l) > 0.0
-                {
+            self.promise_from_afar(number, light, arrivals);
+            self.add_unless_occluded(FROM_SURFACES, samples);
+        }
+    }
+
+    /// The shadow rays to light number `number` of a round.
+    #[inline(never)]
+    fn promise_from_afar(&mut self, number: u32, light: &DistantLight, arrivals: &Arrivals) {
+        let eights = arrivals.list.chunks(WIDTH).zip(&arrivals.places);
+        for ((arrivals, places), lit) in eights.zip(self.lit.chunks(WIDTH)) {
+            let cosines = places.cosines(light.to_light);
+            for ((arrival, lit), cosine) in arrivals.iter().zip(lit).zip(cosines) {
+                if cosine > 0.0 && number & (lit.stride - 1) == 0 {
                     let promised = Promised {
-                        sample: lit.sample,
-                        light: lit.answer * before(light, lit.normal),
+                        sample: arrival.sample,
+                        light: lit.answer * (light.irradiance * cosine),
                     };
-                    let ray = Ray::new(lit.origin, l, f32::MIN_POSITIVE, f32::INFINITY);
+                    let (from, to) = (lit.origin, light.to_light);
+                    let ray = Ray::new(from, to, f32::MIN_POSITIVE, f32::INFINITY);
                     self.shadow_rays[FROM_SURFACES].push(ray, promised);
                 }
             }
-            self.add_unless_occluded(FROM_SURFACES, samples);
         }
     }
 
@@ -78,34 +81,38 @@ impl Tracer<'_> {
         samples: &mut [Sample],
     ) {
         self.lit.clear();
-        for (index, arrival) in arrivals.list.iter().enumerate() {
-            let place = arrivals.place(index);
-            let (path, normal) = (arrival.path as usize, place.normal);
-            if normal == Vec3::ZERO {
-                continue; // Light does not change it.
+        for (eight, places) in arrivals.list.chunks(WIDTH).zip(&arrivals.places) {
+            let mut strides = [1; WIDTH];
+            for (to, arrival) in strides.iter_mut().zip(eight) {
+                *to = stride(&self.paths.paths[arrival.path as usize]);
             }
-            let surface = &arrivals.reflectances[arrival.reflectance as usize];
-            let d = self.paths.rays[path].direction;
-            let whole = unshadowed(self.rules.shading, environment, surface, normal, d);
-            let whole = arrival.weight * whole;
-            let stride = stride(&self.paths.paths[path]);
-            let asked = lights.iter().step_by(stride as usize);
-            let arriving = asked.fold(Rgb::BLACK, |sum, light| sum + before(light, normal));
-            // Where none of the lights shines, there is only what lies between them.
-            samples[arrival.sample as usize].color += where_zero(arriving, whole);
-            self.lit.push(Lit {
-                sample: arrival.sample,
-                stride,
-                origin: off(&place.point),
-                true_normal: place.point.normal,
-                normal,
-                answer: over(whole, arriving),
-            });
+            let falling = Falling::on(places, lights, &strides);
+            for (lane, arrival) in eight.iter().enumerate() {
+                let (place, stride) = (places.get(lane), strides[lane]);
+                let mut lit = Lit {
+                    stride,
+                    origin: place.point.position,
+                    answer: Rgb::BLACK,
+                };
+                // Where there is no normal light changes nothing.
+                if place.normal != Vec3::ZERO {
+                    let surface = &arrivals.reflectances[arrival.reflectance as usize];
+                    let d = self.paths.rays[arrival.path as usize].direction;
+                    let whole =
+                        unshadowed(self.rules.shading, environment, surface, place.normal, d);
+                    let (whole, arriving) = (arrival.weight * whole, falling.get(lane));
+                    // Where none of the lights shines, there is only what lies between them.
+                    samples[arrival.sample as usize].color += where_zero(arriving, whole);
+                    lit.origin = off(&place.point);
+                    lit.answer = over(whole, arriving);
+                }
+                self.lit.push(lit);
+            }
         }
     }
 }
 
-/// Of the lights of a round, a surface that this path comes to asks one of so many.
+/// Of the lights of a round, a surface that this path comes to asks one of so many, a power of two.
 fn stride(path: &Path) -> u32 {
     let [first, others] = INDIRECT_STRIDES;
     match u32::from(path.bounces) + u32::from(path.layers) {

@@ -3,12 +3,15 @@
 use super::batch::{FROM_GROUND, Path, Promised};
 use super::environment::{before, over};
 use super::{Sample, Tracer};
+use crate::accel::Shadow;
 use crate::color::Rgb;
+use crate::environment::DistantLight;
 use crate::light::{Illumination, Lamp};
 use crate::ray::{AT_LIGHT, Ray};
 use crate::scene::{Ground, Shown};
 use crate::shade::{Shading, mirror};
 use glam::Vec3;
+use std::mem::take;
 
 /// A path that came to the ground.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +25,8 @@ pub(super) struct Grounded {
     origin: Vec3,
     /// How much of the path's energy light decides about.
     energy: Rgb,
-    /// What arrives of all light that there would be without shadows, which is `all`.
-    pub(super) arrived: Rgb,
+    /// What shadow takes of all the light that there would be without, which is `all`.
+    pub(super) lost: Rgb,
     all: Rgb,
 }
 
@@ -43,7 +46,7 @@ impl Tracer<'_> {
             position,
             origin: position.with_y(ground.center.y + 2.0 * ground.error(position)),
             energy: path.energy,
-            arrived: Rgb::BLACK,
+            lost: Rgb::BLACK,
             all: Rgb::BLACK,
         });
         true
@@ -59,70 +62,82 @@ impl Tracer<'_> {
             self.mirror_on_ground(ground, index);
         }
         if self.rules.shading != Shading::Flat {
-            self.light_ground(number);
+            self.light_ground(ground, number);
         }
         for index in 0..self.grounded.len() {
             let at = self.grounded[index];
             let presence = ground.presence(at.position);
-            let shadow =
-                at.arrived.by_channel(
-                    at.all,
-                    |arrived, all| {
-                        if all > 0.0 { 1.0 - arrived / all } else { 0.0 }
-                    },
-                );
-            let seen = shadow.map(|shadow| 1.0 - presence * shadow.max(0.0));
+            let seen = over(at.lost, at.all).map(|shadow| 1.0 - presence * shadow.max(0.0));
             self.see_past(at.path, at.energy * seen, samples);
         }
         self.grounded.clear();
     }
 
-    /// Finds how much of all light arrives on the ground.
-    fn light_ground(&mut self, number: u32) {
-        let (scene, rounds) = (self.scene, self.rules.rounds());
-        let lights = scene.environment().map(|e| e.lights(number, rounds));
-        // As everywhere, the environment's light is known; its lights say only which share of it arrives.
-        let whole = scene.environment().map(|e| e.irradiance(Vec3::Y));
-        let lights = lights.unwrap_or_default();
-        let all = lights.iter().map(|light| before(light, Vec3::Y));
-        let all = all.fold(Rgb::BLACK, |sum, light| sum + light);
-        let scale = over(whole.unwrap_or_default(), all);
-        for light in lights.iter().filter(|light| light.to_light.y > 0.0) {
-            let arriving = before(light, Vec3::Y) * scale;
-            for index in 0..self.grounded.len() {
-                let origin = self.grounded[index].origin;
-                let ray = Ray::new(origin, light.to_light, f32::MIN_POSITIVE, f32::INFINITY);
-                self.promise_to_ground(index, ray, arriving);
-            }
-            self.add_unless_occluded(FROM_GROUND, &mut []);
+    /// Finds how much of all light does not arrive on the ground.
+    fn light_ground(&mut self, ground: &Ground, number: u32) {
+        if let Some(environment) = self.scene.environment() {
+            let lights = environment.lights(number, self.rules.rounds());
+            self.light_ground_from_afar(ground, lights, environment.irradiance(Vec3::Y));
         }
-        for lamp in scene.lamps() {
+        for lamp in self.scene.lamps() {
             for index in 0..self.grounded.len() {
-                let at = &self.grounded[index];
+                let at = &mut self.grounded[index];
                 let Some(light) = falling(lamp, at.position) else {
                     continue;
                 };
+                at.all += light.irradiance;
                 let most = light.distance * (1.0 - AT_LIGHT);
                 let ray = Ray::new(at.origin, light.to_light, f32::MIN_POSITIVE, most);
-                self.promise_to_ground(index, ray, light.irradiance);
+                if self.accel.may_meet(&ray) {
+                    self.promise_to_ground(index, ray, light.irradiance);
+                }
             }
             self.add_unless_occluded(FROM_GROUND, &mut []);
         }
     }
 
-    /// Light that arrives if nothing stands in the way of `ray`. Most of the ground lies aside of everything.
-    fn promise_to_ground(&mut self, index: usize, ray: Ray, arriving: Rgb) {
-        let at = &mut self.grounded[index];
-        at.all += arriving;
-        if self.accel.may_meet(&ray) {
-            let promised = Promised {
-                sample: index as u32,
-                light: arriving,
-            };
-            self.shadow_rays[FROM_GROUND].push(ray, promised);
-        } else {
-            at.arrived += arriving;
+    /// The same of the environment's light, which is `whole`. As everywhere, its lights say only which share of it arrives.
+    fn light_ground_from_afar(&mut self, ground: &Ground, lights: &[DistantLight], whole: Rgb) {
+        let above = || lights.iter().filter(|light| light.to_light.y > 0.0);
+        let all = above().fold(Rgb::BLACK, |sum, light| sum + before(light, Vec3::Y));
+        let scale = over(whole, all);
+        let shadow = |light: &DistantLight| self.accel.shadow(ground.center.y, light.to_light);
+        // Most of the ground lies aside of every shadow.
+        let anywhere = above().map(shadow).reduce(Shadow::union);
+        let anywhere = anywhere.unwrap_or(Shadow::NOWHERE);
+        let mut shaded = take(&mut self.shaded);
+        shaded.clear();
+        for (index, at) in self.grounded.iter_mut().enumerate() {
+            at.all += whole;
+            if anywhere.may_hold(at.position) {
+                shaded.push(index);
+            }
         }
+        for light in above() {
+            let shadow = self.accel.shadow(ground.center.y, light.to_light);
+            let arriving = before(light, Vec3::Y) * scale;
+            for &index in &shaded {
+                let Grounded {
+                    position, origin, ..
+                } = self.grounded[index];
+                if shadow.may_hold(position) {
+                    let ray = Ray::new(origin, light.to_light, f32::MIN_POSITIVE, f32::INFINITY);
+                    self.promise_to_ground(index, ray, arriving);
+                }
+            }
+            self.add_unless_occluded(FROM_GROUND, &mut []);
+        }
+        self.shaded = shaded;
+    }
+
+    /// Light that is lost unless nothing stands in the way of `ray`.
+    fn promise_to_ground(&mut self, index: usize, ray: Ray, arriving: Rgb) {
+        self.grounded[index].lost += arriving;
+        let promised = Promised {
+            sample: index as u32,
+            light: arriving,
+        };
+        self.shadow_rays[FROM_GROUND].push(ray, promised);
     }
 
     /// Sends on what the ground mirrors. Where that meets nothing one sees what lies behind the ground, as elsewhere.

@@ -6,6 +6,7 @@
 //! with what came before (callgrind and clock, one light, no LTO, 2026-11-22).
 
 use crate::color::Rgb;
+use crate::environment::DistantLight;
 use crate::geometry::{SurfacePoint, Triangle};
 use crate::light::{Illumination, Lamp};
 use crate::ray::Ray;
@@ -140,12 +141,56 @@ impl Places {
         self.normal.get(lane)
     }
 
+    /// The cosine between a direction and each normal that shading sees; zero where either normal faces away from it.
+    #[inline(always)]
+    pub(super) fn cosines(&self, l: Vec3) -> [f32; WIDTH] {
+        std::array::from_fn(|lane| {
+            let (of_true, cosine) = (self.true_normal.get(lane).dot(l), self.normal(lane).dot(l));
+            let faces = (of_true > 0.0) & (cosine > 0.0);
+            if faces { cosine } else { 0.0 }
+        })
+    }
+
     pub(super) fn true_normal(&self, lane: usize) -> Vec3 {
         self.true_normal.get(lane)
     }
 
     pub(super) fn set_normal(&mut self, lane: usize, normal: Vec3) {
         self.normal.set(lane, normal);
+    }
+}
+
+/// What lights that are infinitely far send to eight places, as if nothing were in the way.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Falling {
+    irradiance: Vectors,
+}
+
+impl Falling {
+    /// What falls on surfaces of the normals that shading sees, of one in so many (a power of two) of the lights for
+    /// each place.
+    #[inline(never)]
+    pub(super) fn on(places: &Places, lights: &[DistantLight], strides: &[u32; WIDTH]) -> Falling {
+        let mut falling = Falling::default();
+        let Vectors { x, y, z } = &mut falling.irradiance;
+        for (number, light) in (0u32..).zip(lights) {
+            let Rgb { r, g, b } = light.irradiance;
+            for lane in 0..WIDTH {
+                let cosine = places.normal(lane).dot(light.to_light);
+                let asked = (cosine > 0.0) & (number & (strides[lane] - 1) == 0);
+                let cosine = if asked { cosine } else { 0.0 };
+                x[lane] += r * cosine;
+                y[lane] += g * cosine;
+                z[lane] += b * cosine;
+            }
+        }
+        falling
+    }
+
+    #[inline(always)]
+    pub(super) fn get(&self, lane: usize) -> Rgb {
+        let Vec3 { x, y, z } = self.irradiance.get(lane);
+        Rgb::new(x, y, z)
     }
 }
 
