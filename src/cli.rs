@@ -7,6 +7,7 @@ mod cameras;
 mod environment;
 mod info;
 mod interrupt;
+mod layers;
 mod outputs;
 mod print;
 mod progress;

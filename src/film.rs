@@ -1,6 +1,12 @@
 //! The picture: named layers of numbers.
 
+mod parts;
+
+pub use parts::{COMPONENTS, FROM_NO_LAMP, Source};
+
+use crate::light::Light;
 use crate::scene::Background;
+use std::borrow::Cow;
 use std::time::Duration;
 
 /// What a render leaves behind.
@@ -25,7 +31,9 @@ pub struct Film {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// Empty for what a reader should show first.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
+    /// What of a render they are.
+    pub quantity: Quantity,
     /// What the numbers are.
     pub channels: &'static [&'static str],
     /// How a file keeps them.
@@ -36,6 +44,21 @@ pub struct Layer {
     pub combine: Combine,
     /// Row by row from the top, pixel by pixel, channel by channel.
     pub values: Vec<f32>,
+}
+
+/// What of a render a layer holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// All light, and alpha.
+    Light,
+    /// [`DEPTH`].
+    Depth,
+    /// [`COST`].
+    Cost,
+    /// [`SAMPLES`].
+    Samples,
+    /// A part of the light, of these in order: [`Layers::of_parts`].
+    Part(usize),
 }
 
 /// How a file keeps a layer's numbers.
@@ -63,7 +86,8 @@ pub const FAR_AWAY: f32 = 1e10;
 
 /// Linear light with premultiplied alpha.
 pub const BEAUTY: Layer = Layer {
-    name: "",
+    name: Cow::Borrowed(""),
+    quantity: Quantity::Light,
     channels: &["R", "G", "B", "A"],
     precision: Precision::Half,
     unit: "linear Rec. 709, premultiplied alpha",
@@ -73,7 +97,8 @@ pub const BEAUTY: Layer = Layer {
 
 /// Distance along the camera's axis, [`FAR_AWAY`] where nothing is seen.
 pub const DEPTH: Layer = Layer {
-    name: "",
+    name: Cow::Borrowed(""),
+    quantity: Quantity::Depth,
     channels: &["Z"],
     precision: Precision::Float,
     unit: "distance along the camera's axis, scene units",
@@ -84,7 +109,8 @@ pub const DEPTH: Layer = Layer {
 /// What the rays of a sample (of the camera, behind transparent surfaces, toward lights, off mirrors, through bodies) were
 /// tested against, each counted on its own way: see [`crate::accel::Tests`].
 pub const COST: Layer = Layer {
-    name: "cost",
+    name: Cow::Borrowed("cost"),
+    quantity: Quantity::Cost,
     channels: &["nodes", "primitives"],
     precision: Precision::Float,
     unit: "tests a sample",
@@ -94,7 +120,8 @@ pub const COST: Layer = Layer {
 
 /// How many samples a pixel got: not the same everywhere where sampling is adaptive.
 pub const SAMPLES: Layer = Layer {
-    name: "samples",
+    name: Cow::Borrowed("samples"),
+    quantity: Quantity::Samples,
     channels: &["count"],
     precision: Precision::Float,
     unit: "samples a pixel",
@@ -111,25 +138,42 @@ pub struct Layers {
     pub cost: bool,
     /// [`SAMPLES`].
     pub samples: bool,
+    /// One for each of [`COMPONENTS`].
+    pub components: bool,
+    /// One for each lamp of the scene, which are so many, and of [`FROM_NO_LAMP`].
+    pub lights: Option<u32>,
+    /// So many for what mirrors show, by how many of them light met: the last holds the rest. They add up to
+    /// `reflection`.
+    pub bounces: u32,
 }
 
 impl Default for Layers {
     fn default() -> Layers {
         Layers {
             depth: true,
-            cost: false,
-            samples: false,
+            ..Layers::NONE
         }
     }
 }
 
 impl Layers {
-    /// The layers, still without values, the beauty first.
-    pub fn list(&self) -> Vec<Layer> {
+    /// The beauty alone.
+    pub const NONE: Layers = Layers {
+        depth: false,
+        cost: false,
+        samples: false,
+        components: false,
+        lights: None,
+        bounces: 0,
+    };
+
+    /// The layers, still without values, the beauty first; `lights` are the scene's.
+    pub fn list(&self, lights: &[Light]) -> Vec<Layer> {
         let mut list = vec![BEAUTY];
         list.extend(self.depth.then_some(DEPTH));
         list.extend(self.cost.then_some(COST));
         list.extend(self.samples.then_some(SAMPLES));
+        list.extend(self.of_parts(lights));
         list
     }
 }

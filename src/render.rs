@@ -15,6 +15,7 @@ pub use settings::{Settings, SettingsError};
 
 use crate::accel::Accel;
 use crate::camera::View;
+use crate::color::Rgb;
 use crate::environment::MAX_ROUNDS;
 use crate::film::Film;
 use crate::sampling::Offset;
@@ -159,6 +160,7 @@ impl<'a> Rendering<'a> {
             max_depth: self.settings.max_depth,
             texture_filter: self.settings.texture_filter,
             samples: self.settings.samples(),
+            layers: self.settings.layers,
         };
         let canvas = Mutex::new(canvas);
         let painter = || Painter::new(self, rules);
@@ -181,5 +183,20 @@ impl<'a> Rendering<'a> {
     fn mean(&self, record: &Record) -> [f32; 4] {
         let weight = self.weights.get(record.samples as usize).copied();
         record.mean(weight.unwrap_or(1.0), self.settings.sampling.filter)
+    }
+
+    /// The mean of a part of a pixel's light, whose sum is `part`.
+    fn mean_part(&self, record: &Record, part: Rgb) -> [f32; 3] {
+        let weight = self.weights.get(record.samples as usize).copied();
+        let Rgb { r, g, b } = part * (1.0 / weight.unwrap_or(1.0));
+        let [whole @ .., _] = self.mean(record);
+        let mut mean = [r, g, b];
+        for (part, whole) in mean.iter_mut().zip(whole) {
+            // Where a filter rings below black nothing is left to have parts.
+            if whole == 0.0 {
+                *part = 0.0;
+            }
+        }
+        mean
     }
 }

@@ -12,16 +12,18 @@ mod environment;
 mod ground;
 mod lanes;
 mod onward;
+mod parts;
 mod refract;
 mod transparent;
 
 pub use count::Counts;
+pub use parts::Parts;
 
 use crate::accel::Accel;
 use crate::camera::View;
 use crate::color::Rgb;
 use crate::environment::MAX_ROUNDS;
-use crate::film::{FAR_AWAY, Statistics};
+use crate::film::{FAR_AWAY, Layers, Source, Statistics};
 use crate::geometry::Hit;
 use crate::ray::Ray;
 use crate::scene::{Recent, Scene};
@@ -32,6 +34,7 @@ use environment::Lit;
 use glam::Vec3;
 use ground::Grounded;
 use lanes::WIDTH;
+use parts::Did;
 use std::mem::{swap, take};
 use std::time::{Duration, Instant};
 use transparent::ThroughLayers;
@@ -77,6 +80,8 @@ pub struct Rules {
     pub texture_filter: TextureFilter,
     /// How many samples a pixel has, or may have: up to the fourth, each sees as much less of it.
     pub samples: u32,
+    /// Which parts of its light somebody wants to know.
+    pub layers: Layers,
 }
 
 impl Rules {
@@ -107,6 +112,8 @@ pub struct Tracer<'a> {
     pub watched: bool,
     /// What the rays of each sample of a batch were tested against, batches added, if somebody wants to know.
     pub counts: Option<Vec<Counts>>,
+    /// What the light of each sample of a batch is made of, if somebody wants to know.
+    pub parts: Option<Parts>,
     paths: Paths,
     /// What goes on from where `paths` end.
     further: Paths,
@@ -121,6 +128,8 @@ pub struct Tracer<'a> {
     /// Which of these may lie in shadow.
     shaded: Vec<usize>,
     recent: Recent,
+    /// Where the light comes from that shadow rays decide about.
+    source: Source,
 }
 
 impl<'a> Tracer<'a> {
@@ -133,6 +142,7 @@ impl<'a> Tracer<'a> {
             statistics: Statistics::default(),
             watched: false,
             counts: None,
+            parts: Parts::of(rules.layers),
             paths: Paths::default(),
             further: Paths::default(),
             hits: Vec::new(),
@@ -144,6 +154,7 @@ impl<'a> Tracer<'a> {
             grounded: Vec::new(),
             shaded: Vec::new(),
             recent: Recent::default(),
+            source: Source::Environment,
         }
     }
 
@@ -165,6 +176,9 @@ impl<'a> Tracer<'a> {
         };
         samples.clear();
         samples.resize(camera_rays.len(), nothing);
+        if let Some(parts) = &mut self.parts {
+            parts.start(camera_rays.len());
+        }
         self.statistics.camera_rays += camera_rays.len() as u64;
         self.paths
             .start(view, self.rules.share_of_pixel(), camera_rays);
@@ -175,9 +189,11 @@ impl<'a> Tracer<'a> {
             self.add_own_light(view, samples);
             let arrivals = take(&mut self.arrivals);
             if self.rules.shading != Shading::Flat {
-                for lamp in self.scene.lamps() {
+                for (number, lamp) in (0..).zip(self.scene.lamps()) {
+                    self.source = Source::Lamp(number);
                     self.add_light(lamp, &arrivals, samples);
                 }
+                self.source = Source::Environment;
                 self.add_environment(number, &arrivals, samples);
             }
             for &index in &arrivals.onward {
@@ -255,11 +271,17 @@ impl<'a> Tracer<'a> {
         for (index, arrival) in list.iter().enumerate() {
             let sample = &mut samples[arrival.sample as usize];
             let surface = &reflectances[arrival.reflectance as usize];
-            let light = match self.rules.shading {
-                Shading::Flat => flat::color(surface),
-                _ => surface.emission + surface.ambient * self.scene.ambient(),
+            let [own, ambient] = match self.rules.shading {
+                Shading::Flat => [flat::color(surface), Rgb::BLACK],
+                _ => [surface.emission, surface.ambient * self.scene.ambient()],
             };
-            sample.color += arrival.weight * light;
+            sample.color += arrival.weight * (own + ambient);
+            if let Some(parts) = &mut self.parts {
+                let path = &self.paths.paths[arrival.path as usize];
+                parts.add(path, Did::Emit, Source::Emission, arrival.weight * own);
+                let ambient = arrival.weight * ambient;
+                parts.add(path, Did::Ambient, Source::Ambient, ambient);
+            }
             if arrival.coverage < 1.0 || mirror::matters(arrival.weight * surface.reflectivity) {
                 onward.push(index);
             }

@@ -15,7 +15,7 @@ use luch::shade::Shading;
 const WITH_COST: Layers = Layers {
     depth: true,
     cost: true,
-    samples: false,
+    ..Layers::NONE
 };
 
 fn settings(samples: u32, shading: Shading) -> Settings {
@@ -81,8 +81,7 @@ fn other_layers_are_the_same_with_and_without_cost() {
     let without = |depth| {
         let layers = Layers {
             depth,
-            cost: false,
-            samples: false,
+            ..Layers::NONE
         };
         with.with_layers(layers).expect("settings")
     };

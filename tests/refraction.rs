@@ -12,6 +12,7 @@ use luch::generate;
 use luch::geometry::{Plane, Sphere};
 use luch::light::{Falloff, Light, LightKind};
 use luch::material::{Finish, Material, MetallicRoughness, Model, Textured, Transmission, Volume};
+use luch::mesh::Mesh;
 use luch::render::{Progress, Settings, render};
 use luch::scene::{Background, Object, Scene, SceneDescription, Shown};
 use luch::shade::Shading;
@@ -136,6 +137,28 @@ fn a_slab_moves_a_ray_sideways_by_what_snells_law_says() {
     assert_eq!((at(x + 4e-4), at(x - 4e-4)), (0.0, 0.0));
     let unbent = 2.0 * degrees.to_radians().tan();
     assert_eq!(at(unbent), 0.0);
+}
+
+#[test]
+fn normals_that_are_tilted_near_a_rim_catch_no_light_in_a_wall() {
+    // Beyond the critical angle of 41.8 degrees for who asks the normal alone.
+    let tilted = Vec3::new(1.0, 0.0, -1.0).normalize();
+    let square = |z: f32| {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(x, y, z))
+    };
+    let wall = Mesh {
+        positions: [square(0.0), square(-0.1)].concat(),
+        triangles: vec![[0, 1, 2], [0, 2, 3], [4, 6, 5], [4, 7, 6]],
+        normals: [[Vec3::Z; 4], [tilted; 4]].concat(),
+        ..Mesh::default()
+    };
+    let camera = Camera::looking_at(Vec3::Z, Vec3::ZERO, Vec3::Y, 0.5);
+    let mut scene = generate::mesh_scene(wall, camera);
+    scene.materials = vec![glass(1.5, false), glow()];
+    scene.lights.clear();
+    scene.planes = vec![plane(Vec3::NEG_Z * 2.0, Vec3::Z, GLOW)];
+    // Of either boundary 4 % are mirrored.
+    assert_close(pixel(scene, 0)[0], 0.96 * 0.96);
 }
 
 #[test]

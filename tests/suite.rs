@@ -21,6 +21,7 @@ mod load_obj;
 mod load_scene_file;
 mod models;
 mod output;
+mod parts;
 mod refraction;
 mod study;
 mod textures;

@@ -6,7 +6,7 @@ use super::outputs::Outputs;
 use super::progress::{self, State};
 use super::summary::{self, Done, Seconds, Summary};
 use super::values::{BackgroundValue, Size};
-use super::{Failure, cameras, command_line};
+use super::{Failure, cameras, command_line, layers};
 use glam::Vec3;
 use luch::Error;
 use luch::accel::{self, Accel, Isa, Layout};
@@ -55,6 +55,7 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let (scene, choices) = asset
         .take_scene(arguments.animation.time(), &viewpoint)
         .map_err(Failure::usage_or_scene)?;
+    let settings = layers::fitted(settings, &scene, arguments)?;
     // A picture is encoded beside the film.
     let room = asset.check_film(&scene, 2 * settings.film_bytes());
     room.map_err(Failure::usage_or_scene)?;

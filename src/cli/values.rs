@@ -3,7 +3,6 @@
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use glam::Vec3;
 use luch::color::{Rgb, srgb_to_linear};
-use luch::film::Layers;
 use luch::output::Display;
 use luch::scene::{Background, Shown};
 use std::num::NonZeroU8;
@@ -153,34 +152,6 @@ pub(super) fn leaf_size(text: &str) -> Result<NonZeroU8, String> {
         .ok_or_else(|| "expected a whole number from 1 to 16".to_owned())
 }
 
-/// The layers of a film, by their names.
-pub(super) fn layers(text: &str) -> Result<Layers, String> {
-    let mut beauty = false;
-    let mut layers = Layers {
-        depth: false,
-        cost: false,
-        samples: false,
-    };
-    for name in text.split(',') {
-        match name.trim() {
-            "beauty" => beauty = true,
-            "data" | "Z" => layers.depth = true,
-            "cost" => layers.cost = true,
-            "samples" => layers.samples = true,
-            other => {
-                return Err(format!(
-                    "there is no layer {other:?}; known are beauty, data, Z, cost and samples, with commas between"
-                ));
-            }
-        }
-    }
-    if beauty {
-        Ok(layers)
-    } else {
-        Err(format!("beauty is in every picture; ask for beauty,{text}"))
-    }
-}
-
 /// A moment in seconds.
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
     let seconds: Option<f64> = text.parse().ok();
@@ -301,34 +272,6 @@ mod tests {
         let expected = "expected a whole number, at least 0";
         assert_eq!(samples("-1"), Err(expected.into()));
         assert!(leaf_size("1").is_ok() && leaf_size("0").is_err() && leaf_size("17").is_err());
-    }
-
-    #[test]
-    fn layers_are_known_names_and_the_beauty_is_one_of_them() {
-        let asked = |depth, cost| {
-            let samples = false;
-            Ok(Layers {
-                depth,
-                cost,
-                samples,
-            })
-        };
-        assert_eq!(layers("beauty"), asked(false, false));
-        assert_eq!(layers("beauty, cost"), asked(false, true));
-        assert_eq!(layers("cost,Z,beauty"), asked(true, true));
-        assert_eq!(layers("beauty,data"), Ok(Layers::default()));
-        assert!(layers("beauty,samples").is_ok_and(|layers| layers.samples && !layers.depth));
-        assert_eq!(
-            layers("cost"),
-            Err("beauty is in every picture; ask for beauty,cost".into())
-        );
-        assert_eq!(
-            layers("beauty,normals"),
-            Err("there is no layer \"normals\"; known are beauty, data, Z, cost and samples, with commas between".into())
-        );
-        for wrong in ["", "beauty,", "Beauty", "beauty;cost"] {
-            assert!(layers(wrong).is_err(), "{wrong}");
-        }
     }
 
     #[test]

@@ -61,7 +61,7 @@ fn channels_of(film: &Film) -> Vec<Channel> {
     let mut channels = Vec::new();
     for (layer, of) in film.layers.iter().enumerate() {
         for (component, channel) in of.channels.iter().enumerate() {
-            let name = match of.name {
+            let name = match &*of.name {
                 "" => (*channel).to_owned(),
                 layer => format!("{layer}.{channel}"),
             };

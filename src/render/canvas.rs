@@ -4,7 +4,8 @@ use super::known::Known;
 use super::painter::Pixels;
 use super::record::Record;
 use super::{Rendering, Settings};
-use crate::film::{COST, Combine, Film, Layer};
+use crate::color::Rgb;
+use crate::film::{Film, Layer, Quantity};
 use crate::scene::Scene;
 use crate::whitted::Counts;
 
@@ -21,9 +22,11 @@ impl Canvas {
             values: vec![0.0; pixels * layer.channels.len()],
             ..layer
         };
+        let list = settings.layers.list(scene.lights());
         let mut known = Known::default();
         if settings.is_adaptive() {
             known.records = vec![Record::EMPTY; pixels];
+            known.parts = vec![Rgb::BLACK; pixels * settings.layers.parts()];
             if settings.layers.cost {
                 known.counts = vec![Counts::default(); pixels];
             }
@@ -32,7 +35,7 @@ impl Canvas {
             film: Film {
                 width: settings.width,
                 height: settings.height,
-                layers: settings.layers.list().into_iter().map(blank).collect(),
+                layers: list.into_iter().map(blank).collect(),
                 background: scene.background(),
                 complete: false,
                 statistics: Default::default(),
@@ -44,6 +47,7 @@ impl Canvas {
     /// Puts the records of some pixels, and what they cost where somebody wants to know, into the film.
     pub(super) fn put(&mut self, rendering: &Rendering, pixels: &Pixels) {
         let width = self.film.width as usize;
+        let of_pixel = rendering.settings.layers.parts();
         for layer in &mut self.film.layers {
             let channels = layer.channels.len();
             for (number, ([i, j], record)) in pixels.places.iter().zip(&pixels.records).enumerate()
@@ -52,25 +56,34 @@ impl Canvas {
                 let Some(values) = layer.values.get_mut(start..start + channels) else {
                     continue;
                 };
-                match layer.combine {
-                    Combine::Mean if layer.name == COST.name => {
+                match layer.quantity {
+                    Quantity::Cost => {
                         let count = pixels.counts.get(number).copied().unwrap_or_default();
                         let mean = |count: u64| (count as f64 / f64::from(record.samples)) as f32;
                         values.copy_from_slice(&[mean(count.nodes), mean(count.primitives)]);
                     }
-                    Combine::Mean => values.copy_from_slice(&rendering.mean(record)),
-                    Combine::Nearest => values.fill(record.depth),
-                    Combine::Count => values.fill(record.samples as f32),
+                    Quantity::Light => values.copy_from_slice(&rendering.mean(record)),
+                    Quantity::Part(part) => {
+                        let parts = pixels.parts.get(number * of_pixel + part).copied();
+                        let light = rendering.mean_part(record, parts.unwrap_or_default());
+                        values.copy_from_slice(&light);
+                    }
+                    Quantity::Depth => values.fill(record.depth),
+                    Quantity::Samples => values.fill(record.samples as f32),
                 }
             }
         }
-        self.keep(pixels);
+        self.keep(pixels, of_pixel);
     }
 
     /// Keeps what is known of them for a second pass.
-    fn keep(&mut self, pixels: &Pixels) {
+    fn keep(&mut self, pixels: &Pixels, of_pixel: usize) {
         let width = self.film.width as usize;
-        let Known { records, counts } = &mut self.known;
+        let Known {
+            records,
+            counts,
+            parts,
+        } = &mut self.known;
         for (number, [i, j]) in pixels.places.iter().enumerate() {
             let index = *j as usize * width + *i as usize;
             if let (Some(kept), Some(record)) = (records.get_mut(index), pixels.records.get(number))
@@ -79,6 +92,11 @@ impl Canvas {
             }
             if let (Some(kept), Some(count)) = (counts.get_mut(index), pixels.counts.get(number)) {
                 *kept = *count;
+            }
+            let part_of = |pixel: usize| pixel * of_pixel..(pixel + 1) * of_pixel;
+            let found = pixels.parts.get(part_of(number));
+            if let (Some(kept), Some(found)) = (parts.get_mut(part_of(index)), found) {
+                kept.copy_from_slice(found);
             }
         }
     }

@@ -1,6 +1,7 @@
 //! What the first pass finds out for the second.
 
 use super::record::Record;
+use crate::color::Rgb;
 use crate::whitted::Counts;
 
 /// What is known of every pixel, row by row from the top; nothing where there is no second pass.
@@ -9,6 +10,8 @@ pub(super) struct Known {
     pub(super) records: Vec<Record>,
     /// What its rays were tested against, where that is wanted.
     pub(super) counts: Vec<Counts>,
+    /// The parts of its light, added up, where they are wanted.
+    pub(super) parts: Vec<Rgb>,
 }
 
 impl Known {

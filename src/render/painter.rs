@@ -4,9 +4,10 @@ use super::known::Known;
 use super::record::Record;
 use super::tile::Tile;
 use super::{Rendering, Settings};
+use crate::color::Rgb;
 use crate::ray::Ray;
 use crate::sampling::BASE;
-use crate::whitted::{Counts, Rules, Sample, Tracer};
+use crate::whitted::{Counts, Parts, Rules, Sample, Tracer};
 use std::time::Instant;
 
 /// Some pixels, and what is known of them.
@@ -17,6 +18,19 @@ pub(super) struct Pixels {
     pub(super) records: Vec<Record>,
     /// What their rays were tested against; empty unless somebody wants to know.
     pub(super) counts: Vec<Counts>,
+    /// The parts of their light, pixel by pixel, added up as the records are.
+    pub(super) parts: Vec<Rgb>,
+}
+
+impl Pixels {
+    /// Adds a sample's parts to those of pixel number `index`.
+    fn add_parts(&mut self, index: usize, parts: &[Rgb], weight: f32) {
+        let start = index * parts.len();
+        let sums = self.parts.get_mut(start..start + parts.len());
+        for (sum, part) in sums.into_iter().flatten().zip(parts) {
+            *sum += *part * weight;
+        }
+    }
 }
 
 /// Who renders tile after tile, in the same memory.
@@ -62,6 +76,9 @@ impl<'a> Painter<'a> {
         records.resize(places.len(), Record::EMPTY);
         self.count_costs(self.pixels.places.len());
         let rendering = self.rendering;
+        let parts = self.pixels.places.len() * rendering.settings.layers.parts();
+        self.pixels.parts.clear();
+        self.pixels.parts.resize(parts, Rgb::BLACK);
         let all = rendering.stops.first().copied().unwrap_or(0);
         for (number, offset) in (0..all).zip(&rendering.offsets) {
             self.columns.clear();
@@ -80,6 +97,10 @@ impl<'a> Painter<'a> {
                 if rendering.is_adaptive {
                     record.compare(sample, rendering.round);
                 }
+            }
+            let parts = self.tracer.parts.iter().flat_map(Parts::of_samples);
+            for (index, parts) in parts.enumerate() {
+                self.pixels.add_parts(index, parts, offset.weight);
             }
         }
         self.pixels.counts.clear();
@@ -127,6 +148,10 @@ impl<'a> Painter<'a> {
                     record.add(sample, offset.weight);
                     record.compare(sample, rendering.round);
                 }
+                let parts = self.tracer.parts.iter().flat_map(Parts::of_samples);
+                for (&index, parts) in self.active.iter().zip(parts) {
+                    self.pixels.add_parts(index, parts, offset.weight);
+                }
             }
             let counts = self.tracer.counts.iter().flatten();
             for (&index, count) in self.active.iter().zip(counts) {
@@ -147,10 +172,13 @@ impl<'a> Painter<'a> {
             places,
             records,
             counts,
+            parts,
         } = &mut self.pixels;
         places.clear();
         records.clear();
         counts.clear();
+        parts.clear();
+        let of_pixel = self.rendering.settings.layers.parts();
         let Settings {
             width,
             height,
@@ -166,6 +194,8 @@ impl<'a> Painter<'a> {
             places.push([i, j]);
             records.extend(known.records.get(index));
             counts.extend(known.counts.get(index));
+            let known = known.parts.get(index * of_pixel..(index + 1) * of_pixel);
+            parts.extend(known.into_iter().flatten());
         }
         self.active.clear();
         self.active.extend(0..places.len());

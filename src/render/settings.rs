@@ -1,7 +1,8 @@
 //! What a picture should be like, checked once.
 
 use super::record::Record;
-use crate::film::Layers;
+use crate::color::Rgb;
+use crate::film::{Layers, Quantity};
 use crate::sampling::{BASE, Grid, MAX_SAMPLES, Pattern, Sampling};
 use crate::scene::Scene;
 use crate::shade::Shading;
@@ -176,11 +177,15 @@ impl Settings {
 
     /// What a film takes while it is rendered, in bytes.
     pub fn film_bytes(&self) -> u64 {
-        let layers = self.layers.list();
-        let channels: usize = layers.iter().map(|layer| layer.channels.len()).sum();
-        let mut bytes = channels * size_of::<f32>();
+        let layers = self.layers.list(&[]);
+        let whole = layers
+            .iter()
+            .filter(|layer| !matches!(layer.quantity, Quantity::Part(_)));
+        let channels: usize = whole.map(|layer| layer.channels.len()).sum();
+        let parts = self.layers.parts() * size_of::<Rgb>();
+        let mut bytes = channels * size_of::<f32>() + parts;
         if self.is_adaptive() {
-            bytes += size_of::<Record>();
+            bytes += size_of::<Record>() + parts;
             bytes += usize::from(self.layers.cost) * size_of::<Counts>();
         }
         u64::from(self.width)
@@ -214,6 +219,11 @@ impl Settings {
     /// In pixels.
     pub fn height(&self) -> u32 {
         self.height
+    }
+
+    /// The most mirror bounces.
+    pub fn max_depth(&self) -> u32 {
+        self.max_depth
     }
 
     /// A pixel; the most, where sampling is adaptive.

@@ -236,7 +236,7 @@ impl Scene {
             &vertex,
             &reflectance,
             place.front,
-            cos_view,
+            [cos_view, cosine(place.point.normal)],
         );
         Surface {
             place,

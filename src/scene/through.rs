@@ -67,15 +67,18 @@ pub struct Filter<'a> {
 }
 
 impl Scene {
-    /// What goes through a surface of a material (and its index) seen at an angle of cosine `cos_view`; `None` where
-    /// nothing does. `reflectance` is that of the surface if nothing went through.
+    /// What goes through a surface of a material (and its index) seen at an angle of cosine `cos_view`, and of `cos_true`
+    /// with its own normal; `None` where nothing does. `reflectance` is that of the surface if nothing went through.
+    ///
+    /// From within a body light is reflected totally only where the surface's own normal says so, too: in a thin wall
+    /// whose normals are tilted apart near its rim it would be caught, and come out anywhere.
     pub(super) fn through(
         &self,
         (index, material): (u32, &Material),
         vertex: &Vertex,
         reflectance: &Reflectance,
         front: bool,
-        cos_view: f32,
+        [cos_view, cos_true]: [f32; 2],
     ) -> Option<Through> {
         let transmission = material.transmits()?;
         let share = self.share(transmission, vertex);
@@ -95,7 +98,10 @@ impl Scene {
                 (Way::Out { indices }, indices)
             }
         };
-        let fresnel = relative.map(|m| refraction::fresnel(cos_view, m));
+        let fresnel = relative.map(|m| match refraction::fresnel(cos_view, m) {
+            1.0 if !front => refraction::fresnel(cos_true, m),
+            share => share,
+        });
         let mirrored = match (&material.model, way) {
             (Model::MetallicRoughness(_), Way::Out { .. }) => fresnel,
             // Schlick's formula is in it: exact where it stands for Fresnel's alone, tinted or faded as it is.

@@ -80,8 +80,8 @@ impl Mapped {
     /// One word, for the names of files.
     pub fn name(self) -> &'static str {
         match self {
-            Mapped::Tests(channel) => COST.channels.get(channel).copied().unwrap_or(COST.name),
-            Mapped::Samples => SAMPLES.name,
+            Mapped::Tests(channel) => COST.channels.get(channel).copied().unwrap_or("cost"),
+            Mapped::Samples => "samples",
         }
     }
 

@@ -1,6 +1,7 @@
 //! What a tracer has under way: paths, the surfaces they arrive at, and shadow rays, in memory that is kept.
 
 use super::lanes::{Places, Triangles, WIDTH};
+use super::parts::By;
 use crate::camera::View;
 use crate::color::Rgb;
 use crate::cone::Cone;
@@ -22,6 +23,8 @@ pub(super) struct Path {
     pub(super) layers: u8,
     /// Whether it is still on the straight line from the camera.
     pub(super) direct: bool,
+    /// What happened to it first.
+    pub(super) by: By,
     /// The material of the body that it travels in, or [`NO_BODY`].
     pub(super) body: u32,
     /// That of the roughest mirror on its way: what lies past everything is seen through a lobe of this width.
@@ -52,6 +55,7 @@ impl Paths {
             bounces: 0,
             layers: 0,
             direct: true,
+            by: By::Sight,
             body: NO_BODY,
             roughness: 0.0,
             energy: Rgb::WHITE,
@@ -268,6 +272,10 @@ pub(super) struct ShadowRays {
 pub(super) struct Promised {
     pub(super) sample: u32,
     pub(super) light: Rgb,
+    /// What of the light is no diffuse light, if somebody wants to know.
+    pub(super) gloss: Rgb,
+    /// Which of the paths.
+    pub(super) path: u32,
 }
 
 impl ShadowRays {

@@ -1,8 +1,9 @@
 //! Direct light: what lamps send to surfaces, with a shadow ray for each.
 
-use super::batch::{Arrivals, FROM_GROUND, FROM_LAMPS, FROM_SURFACES, Promised, ray_to};
+use super::batch::{Arrival, Arrivals, FROM_GROUND, FROM_LAMPS, FROM_SURFACES, Promised, ray_to};
 use super::lanes::{Shone, WIDTH};
-use super::{Sample, Tracer, since};
+use super::parts::Did;
+use super::{Rules, Sample, Tracer, since};
 use crate::color::Rgb;
 use crate::geometry::Hit;
 use crate::light::{Illumination, Lamp};
@@ -11,6 +12,33 @@ use crate::scene::Place;
 use crate::shade::{Reflectance, lambert};
 use glam::Vec3;
 use std::time::Instant;
+
+impl Rules {
+    /// What a light sends to the camera off a surface with this normal, seen from `v`, if nothing stands in its way.
+    #[inline(always)]
+    fn promise(
+        &self,
+        arrival: &Arrival,
+        surface: &Reflectance,
+        n: Vec3,
+        v: Vec3,
+        light: &Illumination,
+    ) -> Promised {
+        let (l, e) = (light.to_light, light.irradiance);
+        let light = self.shading.reflected(surface, n, l, v, e);
+        let gloss = if self.layers.parts() > 0 {
+            light - lambert::reflected(surface, n, l, e)
+        } else {
+            Rgb::BLACK
+        };
+        Promised {
+            sample: arrival.sample,
+            light: arrival.weight * light,
+            gloss: arrival.weight * gloss,
+            path: arrival.path,
+        }
+    }
+}
 
 impl Tracer<'_> {
     /// Adds what one light sends to every surface that it stands before and reaches.
@@ -41,12 +69,8 @@ impl Tracer<'_> {
                 };
                 let v = -self.paths.rays[arrival.path as usize].direction;
                 let surface = &arrivals.reflectances[arrival.reflectance as usize];
-                let (n, shading) = (places.normal(lane), self.rules.shading);
-                let promised = Promised {
-                    sample: arrival.sample,
-                    light: arrival.weight
-                        * shading.reflected(surface, n, light.to_light, v, light.irradiance),
-                };
+                let n = places.normal(lane);
+                let promised = self.rules.promise(arrival, surface, n, v, &light);
                 match shone.ray_from(position, lane) {
                     Some(ray) => from_light.push(ray, promised),
                     None => from_surfaces.push(ray_to(&light, &places.get(lane).point), promised),
@@ -68,14 +92,7 @@ impl Tracer<'_> {
             if n.dot(l) > 0.0 && point.normal.dot(l) > 0.0 {
                 let v = -self.paths.rays[arrival.path as usize].direction;
                 let surface = &arrivals.reflectances[arrival.reflectance as usize];
-                let promised = Promised {
-                    sample: arrival.sample,
-                    light: arrival.weight
-                        * self
-                            .rules
-                            .shading
-                            .reflected(surface, n, l, v, light.irradiance),
-                };
+                let promised = self.rules.promise(arrival, surface, n, v, light);
                 self.shadow_rays[FROM_SURFACES].push(ray_to(light, &point), promised);
             }
         }
@@ -96,6 +113,8 @@ impl Tracer<'_> {
             let promised = Promised {
                 sample: arrival.sample,
                 light: arrival.weight * lambert::reflected(&surface, n, l, light.irradiance),
+                gloss: Rgb::BLACK,
+                path: arrival.path,
             };
             self.shadow_rays[FROM_SURFACES].push(ray_to(&light, &place.point), promised);
         }
@@ -122,7 +141,7 @@ impl Tracer<'_> {
         let occluded = std::mem::take(&mut self.occluded);
         for (promised, &occluded) in promises.light.iter().zip(&occluded) {
             if !occluded {
-                self.keep(kind, promised, promised.light, samples);
+                self.keep(kind, promised, Rgb::WHITE, samples);
             }
         }
         self.occluded = occluded;
@@ -130,13 +149,20 @@ impl Tracer<'_> {
         self.shadow_rays[kind].clear();
     }
 
-    /// Gives what was promised: light to a sample, or to the ground.
+    /// Gives this share of what was promised: light to a sample, or to the ground.
     #[inline(always)]
-    fn keep(&mut self, kind: usize, promised: &Promised, light: Rgb, samples: &mut [Sample]) {
+    fn keep(&mut self, kind: usize, promised: &Promised, share: Rgb, samples: &mut [Sample]) {
+        let light = promised.light * share;
         if kind == FROM_GROUND {
             self.grounded[promised.sample as usize].lost -= light;
         } else {
             samples[promised.sample as usize].color += light;
+            if let Some(parts) = &mut self.parts {
+                let path = &self.paths.paths[promised.path as usize];
+                let gloss = promised.gloss * share;
+                parts.add(path, Did::Scatter, self.source, light - gloss);
+                parts.add(path, Did::Gloss, self.source, gloss);
+            }
         }
     }
 
@@ -157,7 +183,7 @@ impl Tracer<'_> {
         let shares = std::mem::take(&mut self.through_layers.shares);
         for (promised, &share) in promises.light.iter().zip(&shares) {
             if share != Rgb::BLACK {
-                self.keep(kind, promised, promised.light * share, samples);
+                self.keep(kind, promised, share, samples);
             }
         }
         self.through_layers.shares = shares;

@@ -8,6 +8,7 @@
 
 use super::batch::{Arrivals, FROM_SURFACES, Path, Promised};
 use super::lanes::{Falling, WIDTH};
+use super::parts::Did;
 use super::{Sample, Tracer};
 use crate::color::Rgb;
 use crate::environment::{DistantLight, Surroundings};
@@ -29,6 +30,8 @@ pub(super) struct Lit {
     origin: Vec3,
     /// What it would send back of all the environment's light, over what arrives from those lights.
     answer: Rgb,
+    /// What of that is no diffuse light.
+    gloss: Rgb,
 }
 
 impl Tracer<'_> {
@@ -59,9 +62,12 @@ impl Tracer<'_> {
             let cosines = places.cosines(light.to_light);
             for ((arrival, lit), cosine) in arrivals.iter().zip(lit).zip(cosines) {
                 if cosine > 0.0 && number & (lit.stride - 1) == 0 {
+                    let arriving = light.irradiance * cosine;
                     let promised = Promised {
                         sample: arrival.sample,
-                        light: lit.answer * (light.irradiance * cosine),
+                        light: lit.answer * arriving,
+                        gloss: lit.gloss * arriving,
+                        path: arrival.path,
                     };
                     let (from, to) = (lit.origin, light.to_light);
                     let ray = Ray::new(from, to, f32::MIN_POSITIVE, f32::INFINITY);
@@ -93,18 +99,28 @@ impl Tracer<'_> {
                     stride,
                     origin: place.point.position,
                     answer: Rgb::BLACK,
+                    gloss: Rgb::BLACK,
                 };
                 // Where there is no normal light changes nothing.
                 if place.normal != Vec3::ZERO {
                     let surface = &arrivals.reflectances[arrival.reflectance as usize];
                     let d = self.paths.rays[arrival.path as usize].direction;
-                    let whole =
-                        unshadowed(self.rules.shading, environment, surface, place.normal, d);
-                    let (whole, arriving) = (arrival.weight * whole, falling.get(lane));
+                    let shading = self.rules.shading;
+                    let both = unshadowed(shading, environment, surface, place.normal, d);
+                    let [matt, gloss] = both.map(|light| arrival.weight * light);
+                    let (whole, arriving) = (matt + gloss, falling.get(lane));
                     // Where none of the lights shines, there is only what lies between them.
                     samples[arrival.sample as usize].color += where_zero(arriving, whole);
+                    if let Some(parts) = &mut self.parts {
+                        let path = &self.paths.paths[arrival.path as usize];
+                        for (did, light) in [(Did::Scatter, matt), (Did::Gloss, gloss)] {
+                            let light = where_zero(arriving, light);
+                            parts.add(path, did, self.source, light);
+                        }
+                    }
                     lit.origin = off(&place.point);
                     lit.answer = over(whole, arriving);
+                    lit.gloss = over(gloss, arriving);
                 }
                 self.lit.push(lit);
             }
@@ -122,24 +138,25 @@ fn stride(path: &Path) -> u32 {
     }
 }
 
-/// What a surface sends back to a viewer along `d` if nothing is in shadow.
+/// What a surface sends back to a viewer along `d` if nothing is in shadow: diffuse light, and the rest.
 fn unshadowed(
     shading: Shading,
     environment: &Surroundings,
     surface: &Reflectance,
     n: Vec3,
     d: Vec3,
-) -> Rgb {
+) -> [Rgb; 2] {
     let irradiance = environment.irradiance(n);
     if shading == Shading::Lambert {
-        return surface.diffuse * irradiance;
+        return [surface.diffuse * irradiance, Rgb::BLACK];
     }
     let matt = (surface.ambient - surface.gloss).map(|channel| channel.max(0.0));
     if surface.gloss == Rgb::BLACK {
-        return matt * irradiance;
+        return [matt * irradiance, Rgb::BLACK];
     }
     let r = mirror::direction(d, n);
-    matt * irradiance + surface.gloss * environment.radiance(r, surface.roughness)
+    let glossy = surface.gloss * environment.radiance(r, surface.roughness);
+    [matt * irradiance, glossy]
 }
 
 /// What a light sends to a surface of this normal; nothing from behind.

@@ -2,10 +2,12 @@
 
 use super::batch::{FROM_GROUND, Path, Promised};
 use super::environment::{before, over};
+use super::parts::{By, Did};
 use super::{Sample, Tracer};
 use crate::accel::Shadow;
 use crate::color::Rgb;
 use crate::environment::DistantLight;
+use crate::film::Source;
 use crate::light::{Illumination, Lamp};
 use crate::ray::{AT_LIGHT, Ray};
 use crate::scene::{Ground, Shown};
@@ -136,6 +138,8 @@ impl Tracer<'_> {
         let promised = Promised {
             sample: index as u32,
             light: arriving,
+            gloss: Rgb::BLACK,
+            path: self.grounded[index].path,
         };
         self.shadow_rays[FROM_GROUND].push(ray, promised);
     }
@@ -159,6 +163,7 @@ impl Tracer<'_> {
             Path {
                 energy,
                 bounces,
+                by: path.by.then(By::Mirror),
                 cone: path.cone.mirrored(at.t, 0.0, 0.0),
                 ..path
             },
@@ -170,22 +175,28 @@ impl Tracer<'_> {
     /// Adds what path number `index` sees where it meets nothing more, with this energy.
     ///
     /// What the camera sees past everything is the film's affair, unless the background is part of the picture.
-    pub(super) fn see_past(&self, index: u32, energy: Rgb, samples: &mut [Sample]) {
+    pub(super) fn see_past(&mut self, index: u32, energy: Rgb, samples: &mut [Sample]) {
         let (scene, index) = (self.scene, index as usize);
         let (path, ray) = (&self.paths.paths[index], &self.paths.rays[index]);
         let sample = &mut samples[path.sample as usize];
         let background = scene.background();
-        match (background.shown, scene.environment()) {
+        let (light, source) = match (background.shown, scene.environment()) {
             // There is one alpha for all colours: of tinted sheets it has the middle.
             (Shown::OnDisplay | Shown::Never, _) if path.direct => {
                 let Rgb { r, g, b } = energy;
                 sample.alpha -= 0.5 * (r.max(g).max(b) + r.min(g).min(b));
+                return;
             }
-            (Shown::Always, _) if path.direct => sample.color += energy * background.color,
+            (Shown::Always, _) if path.direct => (background.color, Source::Background),
             (_, Some(environment)) => {
-                sample.color += energy * environment.radiance(ray.direction, path.roughness);
+                let radiance = environment.radiance(ray.direction, path.roughness);
+                (radiance, Source::Environment)
             }
-            (_, None) => sample.color += energy * background.color,
+            (_, None) => (background.color, Source::Background),
+        };
+        sample.color += energy * light;
+        if let Some(parts) = &mut self.parts {
+            parts.add(path, Did::Emit, source, energy * light);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What goes on from a surface: rays off mirrors, and through what is transparent.
 
 use super::batch::{Arrival, Arrivals, Path};
+use super::parts::By;
 use super::{LEAST_IN_GLASS, MAX_LAYERS, Tracer};
 use crate::color::Rgb;
 use crate::cone::Cone;
@@ -45,6 +46,7 @@ impl Tracer<'_> {
             energy,
             bounces: path.bounces + 1,
             direct: false,
+            by: path.by.then(By::Mirror),
             cone: self.mirrored_cone(arrivals, index),
             roughness: path.roughness.max(roughness),
             ..path

@@ -1,6 +1,7 @@
 //! What becomes of light at surfaces that it goes through: into a body, out of one, or straight through a sheet.
 
 use super::batch::{Arrivals, NO_BODY, Path};
+use super::parts::By;
 use super::{MAX_LAYERS, Tracer};
 use crate::color::Rgb;
 use crate::ray::Ray;
@@ -75,6 +76,7 @@ impl Tracer<'_> {
                     index,
                     Path {
                         energy: passed,
+                        by: path.by.then(By::Glass),
                         ..path
                     },
                 );
@@ -98,10 +100,12 @@ impl Tracer<'_> {
         let place = arrivals.place(index);
         let (cone, t, curvature) = self.cone_at(arrivals, index);
         let d = self.paths.rays[path].direction;
+        let path = self.paths.paths[path];
         let path = Path {
             direct: false,
+            by: path.by.then(By::Glass),
             body,
-            ..self.paths.paths[path]
+            ..path
         };
         let Rgb { r, g, b } = energy;
         let apart = [
