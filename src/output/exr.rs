@@ -79,6 +79,7 @@ fn channels_of(film: &Film) -> Vec<Channel> {
 
 fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
     let size = Vec2(film.width as usize, film.height as usize);
+    let display = Vec2(film.display_width as usize, film.display_height as usize);
     let described = channels.iter().map(|channel| {
         let sample_type = match channel.precision {
             Precision::Half => SampleType::F16,
@@ -92,8 +93,9 @@ fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
             BlockDescription::ScanLines,
             LineOrder::Increasing,
         )
-        .with_shared_attributes(attributes::shared(size))
+        .with_shared_attributes(attributes::shared(display))
         .with_attributes(attributes::own(comments))
+        .with_position(Vec2(film.left, film.top))
 }
 
 /// All that stands before the table of offsets.

@@ -13,10 +13,10 @@ const REC_709: Chromaticities = Chromaticities {
 };
 
 /// What would be the same for every part of a file.
-pub(super) fn shared(size: Vec2<usize>) -> ImageAttributes {
+pub(super) fn shared(display: Vec2<usize>) -> ImageAttributes {
     ImageAttributes {
         chromaticities: Some(REC_709),
-        ..ImageAttributes::new(IntegerBounds::from_dimensions(size))
+        ..ImageAttributes::new(IntegerBounds::from_dimensions(display))
     }
 }
 
