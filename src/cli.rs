@@ -18,6 +18,7 @@ mod sampling;
 mod study;
 mod summary;
 mod values;
+mod windows;
 
 use arguments::{Arguments, Command};
 use clap::error::ErrorKind;

@@ -108,6 +108,21 @@ fn check(film: &Film) -> Result<(), String> {
             "the film is {width} x {height} pixels, expected 1 to {MAX_SIDE} each way"
         ));
     }
+    let display = [film.display_width, film.display_height];
+    if !display.iter().all(|side| sides.contains(side)) {
+        return Err(format!(
+            "the film is of a picture of {} x {} pixels, expected 1 to {MAX_SIDE} each way",
+            film.display_width, film.display_height
+        ));
+    }
+    let (window, furthest) = (film.window(), i64::from(MAX_SIDE));
+    let is_near = |from: i32, to: i64| i64::from(from) >= -furthest && to <= furthest;
+    if !is_near(window.left, window.right()) || !is_near(window.top, window.bottom()) {
+        return Err(format!(
+            "the film begins at {},{}, expected it within {MAX_SIDE} pixels of the picture",
+            film.left, film.top
+        ));
+    }
     if film.layer(BEAUTY.channels).is_none() {
         return Err("the film has no beauty, expected a layer R, G, B, A".into());
     }

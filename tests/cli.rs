@@ -14,6 +14,7 @@ mod said;
 mod scenes;
 mod study;
 mod usage;
+mod windows;
 
 use serde_json::Value;
 use std::fs;

@@ -49,7 +49,7 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let (asset, beside) = rayon::join(|| open(arguments), || arguments.environment.beside(name));
     let (mut asset, (surrounding, environment)) = (asset?, beside?);
     outputs.spare(&asset.files)?;
-    let settings = settings(arguments, &asset)?;
+    let settings = arguments.window.of(settings(arguments, &asset)?)?;
     let viewpoint = Viewpoint {
         environment: surrounding,
         ..viewpoint(arguments, &settings)?

@@ -83,6 +83,7 @@ fn channels_of(film: &Film) -> Vec<Channel> {
 
 fn header(film: &Film, channels: &[Channel], options: &Options) -> Header {
     let size = Vec2(film.width as usize, film.height as usize);
+    let display = Vec2(film.display_width as usize, film.display_height as usize);
     let described = channels.iter().map(|channel| {
         let sample_type = match channel.precision {
             Precision::Half => SampleType::F16,
@@ -96,8 +97,9 @@ fn header(film: &Film, channels: &[Channel], options: &Options) -> Header {
             BlockDescription::ScanLines,
             LineOrder::Increasing,
         )
-        .with_shared_attributes(attributes::shared(size, options))
-        .with_attributes(attributes::own(film, size, options))
+        .with_shared_attributes(attributes::shared(display, options))
+        .with_attributes(attributes::own(film, display, options))
+        .with_position(Vec2(film.left, film.top))
 }
 
 /// All that stands before the table of offsets.

@@ -16,11 +16,11 @@ const REC_709: Chromaticities = Chromaticities {
 };
 
 /// What would be the same for every part of a file.
-pub(super) fn shared(size: Vec2<usize>, options: &Options) -> ImageAttributes {
+pub(super) fn shared(display: Vec2<usize>, options: &Options) -> ImageAttributes {
     ImageAttributes {
         chromaticities: Some(REC_709),
         time_code: options.header.frame.and_then(moment::time_code),
-        ..ImageAttributes::new(IntegerBounds::from_dimensions(size))
+        ..ImageAttributes::new(IntegerBounds::from_dimensions(display))
     }
 }
 
