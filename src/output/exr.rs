@@ -5,6 +5,7 @@
 //! own.
 
 mod attributes;
+mod mattes;
 mod samples;
 
 use super::rows::map_rows;
@@ -12,7 +13,7 @@ use crate::film::{Film, Precision};
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::Result;
 use exr::math::Vec2;
-use exr::meta::attribute::{self, ChannelDescription, LineOrder, SampleType, Text};
+use exr::meta::attribute::{self, AttributeValue, ChannelDescription, LineOrder, SampleType, Text};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData, magic_number, sequence_end};
 use exr::prelude::Compression;
@@ -86,6 +87,11 @@ fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
         };
         ChannelDescription::named(attributes::text(&channel.name), sample_type)
     });
+    let mut own = attributes::own(comments);
+    for (name, value) in film.manifests.iter().flat_map(mattes::attributes) {
+        let value = AttributeValue::Text(attributes::text(&value));
+        own.other.insert(attributes::text(&name), value);
+    }
     Header::new(Text::default(), size, described.collect())
         .with_encoding(
             Compression::ZIP1,
@@ -93,7 +99,7 @@ fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
             LineOrder::Increasing,
         )
         .with_shared_attributes(attributes::shared(size))
-        .with_attributes(attributes::own(comments))
+        .with_attributes(own)
 }
 
 /// All that stands before the table of offsets.

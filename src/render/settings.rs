@@ -1,5 +1,6 @@
 //! What a picture should be like, checked once.
 
+use super::matte::KnownShares;
 use super::record::Record;
 use crate::color::Rgb;
 use crate::film::{Layers, Quantity};
@@ -187,6 +188,7 @@ impl Settings {
         if self.is_adaptive() {
             bytes += size_of::<Record>() + parts;
             bytes += usize::from(self.layers.cost) * size_of::<Counts>();
+            bytes += usize::from(self.layers.mattes) * size_of::<KnownShares>();
         }
         u64::from(self.width)
             .saturating_mul(u64::from(self.height))
