@@ -166,7 +166,7 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
         shading.unwrap_or_default(),
     )
     .and_then(|settings| settings.with_sampling(sampling))
-    .and_then(|settings| settings.with_layers(arguments.layers.unwrap_or_default()))
+    .and_then(|settings| settings.with_layers(layers::asked(arguments)))
     .map(|settings| settings.with_texture_filter(texture_filter.unwrap_or_default()))
     .map_err(|error| {
         let asked = [

@@ -7,6 +7,7 @@
 mod attributes;
 mod camera;
 mod facts;
+mod mattes;
 mod moment;
 mod samples;
 
@@ -16,7 +17,7 @@ use crate::film::{Film, Precision};
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::Result;
 use exr::math::Vec2;
-use exr::meta::attribute::{self, ChannelDescription, LineOrder, SampleType, Text};
+use exr::meta::attribute::{self, AttributeValue, ChannelDescription, LineOrder, SampleType, Text};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData, magic_number, sequence_end};
 use exr::prelude::Compression;
@@ -91,6 +92,11 @@ fn header(film: &Film, channels: &[Channel], options: &Options) -> Header {
         };
         ChannelDescription::named(attributes::text(&channel.name), sample_type)
     });
+    let mut own = attributes::own(film, display, options);
+    for (name, value) in film.manifests.iter().flat_map(mattes::attributes) {
+        let value = AttributeValue::Text(attributes::text(&value));
+        own.other.insert(attributes::text(&name), value);
+    }
     Header::new(Text::default(), size, described.collect())
         .with_encoding(
             Compression::ZIP1,
@@ -98,7 +104,7 @@ fn header(film: &Film, channels: &[Channel], options: &Options) -> Header {
             LineOrder::Increasing,
         )
         .with_shared_attributes(attributes::shared(display, options))
-        .with_attributes(attributes::own(film, display, options))
+        .with_attributes(own)
         .with_position(Vec2(film.left, film.top))
 }
 
