@@ -11,6 +11,7 @@ mod pipes;
 mod reading;
 mod said;
 mod scenes;
+mod sequence;
 mod study;
 mod usage;
 

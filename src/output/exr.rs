@@ -6,6 +6,9 @@
 
 mod attributes;
 mod samples;
+mod whole;
+
+pub(super) use whole::is_whole;
 
 use super::rows::map_rows;
 use crate::film::{Film, Precision};
