@@ -84,6 +84,22 @@ impl Camera {
         }
     }
 
+    /// The same camera, carried around the vertical axis through `pivot` by an `angle` in radians, from +Z toward +X. By
+    /// none it is the same to the last bit.
+    pub fn carried_around(self, pivot: DVec3, angle: f64) -> Camera {
+        if angle == 0.0 {
+            return self;
+        }
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        let turned = |v: DVec3| DVec3::new(v.x * cos + v.z * sin, v.y, v.z * cos - v.x * sin);
+        Camera {
+            position: pivot + turned(self.position - pivot),
+            look_at: pivot + turned(self.look_at - pivot),
+            up: turned(self.up),
+            ..self
+        }
+    }
+
     /// The unit vectors `u` (right), `v` (up) and `w` (into the picture) of the camera (paper, eq. 1 and 2).
     ///
     /// Where `up` is parallel to `w`, the world axis least along `w` takes its place (the earlier one of two alike).

@@ -5,6 +5,7 @@ mod arguments;
 mod asks;
 mod cameras;
 mod environment;
+mod frames;
 mod info;
 mod interrupt;
 mod layers;
@@ -15,6 +16,7 @@ mod provenance;
 mod reading;
 mod render;
 mod sampling;
+mod sequence;
 mod study;
 mod summary;
 mod values;
@@ -24,6 +26,7 @@ use arguments::{Arguments, Command};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use std::error::Error;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 /// Why a command ended without doing its work.
@@ -37,6 +40,8 @@ struct Failure {
 const USAGE_OR_SCENE: u8 = 1;
 /// The exit code of a picture or a text that cannot be written.
 const OUTPUT: u8 = 2;
+/// The exit code of a render that did not come to its end.
+const RENDER: u8 = 3;
 
 impl Failure {
     fn usage_or_scene(error: impl Into<Box<dyn Error + Send + Sync>>) -> Failure {
@@ -52,21 +57,45 @@ impl Failure {
             code: OUTPUT,
         }
     }
+
+    fn render(error: impl Into<Box<dyn Error + Send + Sync>>) -> Failure {
+        Failure {
+            error: error.into(),
+            code: RENDER,
+        }
+    }
 }
 
 /// Does what the command line asks.
 pub(crate) fn run() -> ExitCode {
-    let (result, verbose) = match Arguments::try_parse() {
-        Ok(arguments) => (obey(&arguments.command), arguments.command.is_verbose()),
-        Err(error) => (explain(&error), false),
+    let (result, verbose, is_for_openjd) = match Arguments::try_parse() {
+        Ok(Arguments { command }) => (
+            caught(|| obey(&command)),
+            command.is_verbose(),
+            command.is_for_openjd(),
+        ),
+        Err(error) => (explain(&error), false, false),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(Failure { error, code }) => {
+            if is_for_openjd {
+                progress::to_openjd("fail", &error.to_string());
+            }
             complain(error.as_ref(), verbose);
             ExitCode::from(code)
         }
     }
+}
+
+/// Does `work`; a panic, of which the standard library has said where it was, is a failed render.
+fn caught(work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
+    // Nothing that the work changes is looked at again.
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|_| {
+        Err(Failure::render(
+            "the program broke off, which is a fault of its own; please report it",
+        ))
+    })
 }
 
 fn obey(command: &Command) -> Result<(), Failure> {
@@ -138,4 +167,16 @@ fn problem(text: &str) -> String {
         .strip_prefix("error: ")
         .unwrap_or(&sentence)
         .to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_a_failed_render() {
+        let code = |result: Result<(), Failure>| result.err().map(|failure| failure.code);
+        assert_eq!(code(caught(|| panic!("on purpose"))), Some(3));
+        assert_eq!(code(caught(|| Ok(()))), None);
+    }
 }

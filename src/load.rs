@@ -33,7 +33,7 @@ pub use model::{
 };
 pub use options::{AnimationChoice, Options};
 pub use viewpoint::{
-    CameraChoice, Choices, GroundChoice, LightsChoice, PlacedCamera, Surrounding, Viewpoint,
+    CameraChoice, Choices, GroundChoice, LightsChoice, PlacedCamera, Stage, Surrounding, Viewpoint,
 };
 pub use warnings::{Warning, Warnings};
 

@@ -15,7 +15,8 @@ pub use png::rgb_png;
 
 use crate::Error;
 use crate::film::{BEAUTY, Film};
-use std::io::Write;
+use std::fs::File;
+use std::io::{BufReader, Write};
 use std::path::Path;
 
 /// What kind of file a picture becomes.
@@ -44,6 +45,19 @@ impl Format {
                 way_out: "give it one of these".into(),
             }),
         }
+    }
+}
+
+/// Whether a picture is at `path`, from its beginning to its end: one that was cut while it was written or copied is not
+/// whole, nor is one that cannot be read.
+pub fn is_whole(path: &Path) -> bool {
+    let Ok(file) = File::open(path).map(BufReader::new) else {
+        return false;
+    };
+    match Format::of(path) {
+        Ok(Format::Png) => png::is_whole(file),
+        Ok(Format::Exr) => exr::is_whole(file),
+        Err(_) => false,
     }
 }
 

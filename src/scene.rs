@@ -19,6 +19,7 @@ pub use ground::{GROUND, Ground};
 pub use layout::{PlacedInstance, Primitive, Recent};
 pub use names::Names;
 pub(crate) use names::OwnNames;
+pub use pyramids::PreparedTextures;
 pub use sharing::InstanceSpace;
 pub use surface::{Met, Place, Surface};
 pub use through::{Filter, Through, Way};
@@ -242,6 +243,16 @@ impl Scene {
     /// Where the picture is taken from.
     pub fn camera(&self) -> &Camera {
         &self.camera
+    }
+
+    /// The same, seen by another camera: all that was made of it still holds, search trees too.
+    ///
+    /// # Errors
+    ///
+    /// The camera is none, as [`Scene::new`] finds.
+    pub fn with_camera(self, camera: Camera) -> Result<Scene, SceneError> {
+        check::check_camera(&camera)?;
+        Ok(Scene { camera, ..self })
     }
 
     /// What a ray that misses everything sees.

@@ -12,6 +12,7 @@ mod provenance;
 mod reading;
 mod said;
 mod scenes;
+mod sequence;
 mod study;
 mod usage;
 mod windows;

@@ -28,6 +28,11 @@ impl AnimationArguments {
         }
     }
 
+    /// Whether a moment is asked for.
+    pub(super) fn has_time(&self) -> bool {
+        self.time.is_some()
+    }
+
     /// The moment that is shown, in seconds.
     pub(super) fn time(&self) -> f64 {
         self.time.unwrap_or(0.0)

@@ -4,6 +4,7 @@ mod choices;
 
 use super::animation::AnimationArguments;
 use super::environment::EnvironmentArguments;
+use super::frames::SequenceArguments;
 use super::layers;
 use super::provenance::ProvenanceArguments;
 use super::reading::Reading;
@@ -13,7 +14,7 @@ use super::values::{self, BackgroundValue, Size, whole_number};
 use super::windows::WindowArguments;
 pub(super) use choices::{
     BitDepthValue, BuilderValue, DirectionValue, FormatValue, GroundValue, LightsValue,
-    PresetValue, ShadingValue, TextureFilterValue,
+    PresetValue, ProgressValue, ShadingValue, TextureFilterValue,
 };
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand};
@@ -59,6 +60,11 @@ pub(super) enum Command {
 }
 
 impl Command {
+    /// Whether an error is to be told to Open Job Description.
+    pub(super) fn is_for_openjd(&self) -> bool {
+        matches!(self, Command::Render(arguments) if arguments.progress == ProgressValue::Openjd)
+    }
+
     /// Whether the causes of an error are wanted.
     pub(super) fn is_verbose(&self) -> bool {
         match self {
@@ -78,6 +84,8 @@ Examples:
   luch render chair.obj --view left --orbit 20,15 --zoom 1.5
   luch render chair.obj --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
   luch render helmet.glb -o - | viewer
+  luch render robot.glb --frames 1-48 --fps 24 -o shot.####.exr -o shot.####.png
+  luch render helmet.glb --turntable 72 -o turn.####.png
   luch render helmet.glb -o helmet.png --json > helmet.json
 
 Limits: 4 GiB a file; 268435456 pixels an image; 2147483647 triangles and other primitives, each as
@@ -87,7 +95,7 @@ what --max-memory holds.
 Environment: LUCH_ISA=scalar|avx2|avx512 chooses the kernels that search [default: the widest that
 the machine has]; all of them give the same picture.
 
-Exit codes: 0 done, 1 usage or scene, 2 output, 130 interrupted.";
+Exit codes: 0 done, 1 usage or scene, 2 output, 3 render, 130 interrupted, 143 terminated.";
 
 /// Everything `luch render` can be told.
 #[derive(Args, Debug)]
@@ -96,8 +104,8 @@ pub(super) struct RenderArguments {
     /// A .glb, .gltf, .obj or .toml file; the paper's figure 4 where there is none
     pub(super) input: Option<PathBuf>,
 
-    /// Where the picture goes: a .png or .exr file, or - for standard output; may be repeated [default: the input's
-    /// name, .png, in the current folder]
+    /// Where the picture goes: a .png or .exr file, or - for standard output; may be repeated; a sequence's name has #### or %04d
+    /// where the number of the frame goes [default: the input's name, .png, in the current folder]
     #[arg(short, long = "output", value_name = "FILE")]
     pub(super) outputs: Vec<PathBuf>,
 
@@ -175,6 +183,20 @@ pub(super) struct RenderArguments {
 
     #[command(flatten)]
     pub(super) animation: AnimationArguments,
+
+    #[command(flatten)]
+    pub(super) sequence: SequenceArguments,
+
+    /// How progress is told: auto is a bar on a terminal and lines on a pipe; openjd what Open Job Description reads on standard
+    /// output
+    #[arg(
+        long,
+        value_enum,
+        value_name = "FORM",
+        default_value = "auto",
+        conflicts_with = "json"
+    )]
+    pub(super) progress: ProgressValue,
 
     /// Threads to use [default: all cores]
     #[arg(short, long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(1..=1024))]

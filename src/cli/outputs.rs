@@ -19,12 +19,38 @@ pub(super) struct Outputs {
     to_stdout: Option<Format>,
 }
 
+/// Where the arguments say that pictures go, or the current folder under the name of `input`: for a sequence with a place
+/// for the frame's number.
+pub(super) fn paths(arguments: &RenderArguments, input: &Path, is_sequence: bool) -> Vec<PathBuf> {
+    if !arguments.outputs.is_empty() {
+        return arguments.outputs.clone();
+    }
+    let mut name = input.file_stem().unwrap_or(input.as_os_str()).to_owned();
+    name.push(if is_sequence { ".####.png" } else { ".png" });
+    vec![PathBuf::from(name)]
+}
+
+/// Whether every file that a picture becomes is there and whole.
+pub(super) fn are_whole(paths: &[PathBuf], arguments: &RenderArguments) -> bool {
+    let maps = Mapped::of(&arguments.layers.unwrap_or_default());
+    let is_whole = |path: &PathBuf| {
+        let is_png = matches!(Format::of(path), Ok(Format::Png));
+        let mut beside = maps.iter().filter(|_| is_png);
+        output::is_whole(path) && beside.all(|map| output::is_whole(&heat_map(path, map)))
+    };
+    paths.iter().all(is_whole)
+}
+
+/// The heat map beside a PNG.
+fn heat_map(path: &Path, map: &Mapped) -> PathBuf {
+    path.with_extension(format!("{}.png", map.name()))
+}
+
 impl Outputs {
-    /// Makes sure that the picture can be written to where the arguments say, or into the current folder under the
-    /// name of `input`.
+    /// Makes sure that the picture can be written to all of `paths`.
     pub(super) fn claim(
+        paths: &[PathBuf],
         arguments: &RenderArguments,
-        input: &Path,
         interrupt: &Interrupt,
     ) -> Result<Outputs, Failure> {
         let to_stdout = arguments
@@ -35,13 +61,6 @@ impl Outputs {
                 "-o - and --json both want standard output; give the picture a name",
             ));
         }
-        let mut name = input.file_stem().unwrap_or(input.as_os_str()).to_owned();
-        name.push(".png");
-        let default = [PathBuf::from(name)];
-        let paths = match arguments.outputs.as_slice() {
-            [] => &default,
-            given => given,
-        };
         let mut files = Vec::new();
         let mut heat_maps = Vec::new();
         let maps = Mapped::of(&layers::asked(arguments));
@@ -49,8 +68,9 @@ impl Outputs {
             let file = interrupt.claim(path).map_err(Failure::output)?;
             if file.format() == Format::Png {
                 for map in &maps {
-                    let beside = path.with_extension(format!("{}.png", map.name()));
-                    let beside = interrupt.claim(&beside).map_err(Failure::output)?;
+                    let beside = interrupt
+                        .claim(&heat_map(path, map))
+                        .map_err(Failure::output)?;
                     heat_maps.push((*map, beside));
                 }
             }

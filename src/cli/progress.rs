@@ -1,5 +1,7 @@
-//! Progress on standard error: a bar on a terminal, plain lines on a pipe.
+//! Progress: a bar on a terminal, plain lines on a pipe, or what Open Job Description reads.
 
+use super::arguments::{ProgressValue, RenderArguments};
+use super::print;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, Write, stderr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -19,19 +21,49 @@ pub(super) struct State {
     pub(super) left: Option<Duration>,
 }
 
-/// Does `work` while its progress is shown, unless `quiet`.
+/// To whom progress is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Listener {
+    Nobody,
+    /// Standard error.
+    Person,
+    /// Standard output.
+    Openjd,
+}
+
+impl Listener {
+    /// Whom the arguments name.
+    pub(super) fn of(arguments: &RenderArguments) -> Listener {
+        match (arguments.progress, arguments.quiet) {
+            (ProgressValue::Openjd, _) => Listener::Openjd,
+            (ProgressValue::Auto, true) => Listener::Nobody,
+            (ProgressValue::Auto, false) => Listener::Person,
+        }
+    }
+}
+
+/// Tells Open Job Description something, on a line of its own: `progress`, `status` or `fail`.
+pub(super) fn to_openjd(kind: &str, what: &str) {
+    let line = format!("openjd_{kind}: {}\n", print::one_line(what));
+    // A pipe that nobody reads any more is no reason to stop.
+    let _ = print::to_stdout(line.as_bytes());
+}
+
+/// Does `work` while its progress is shown.
 pub(super) fn shown<T>(
-    quiet: bool,
+    listener: Listener,
     state: &(dyn Fn() -> State + Sync),
     work: impl FnOnce() -> T,
 ) -> T {
-    if quiet {
+    if listener == Listener::Nobody {
         return work();
     }
     thread::scope(|scope| {
         let (finished, wait) = channel::<()>();
         let watcher = scope.spawn(move || {
-            if stderr().is_terminal() {
+            if listener == Listener::Openjd {
+                openjd(state, &wait)
+            } else if stderr().is_terminal() {
                 bar(state, &wait)
             } else {
                 lines(state, &wait)
@@ -64,6 +96,26 @@ fn bar(state: &dyn Fn() -> State, wait: &Receiver<()>) {
         }
     }
     bar.finish_and_clear();
+}
+
+fn openjd(state: &dyn Fn() -> State, wait: &Receiver<()>) {
+    let mut said = (None, String::new());
+    let mut say = || {
+        let State { doing, share, .. } = state();
+        let percent = (share * 100.0).floor();
+        if said.1 != doing {
+            to_openjd("status", &doing);
+            said.1 = doing;
+        }
+        if said.0 != Some(percent) {
+            to_openjd("progress", &format!("{percent:.1}"));
+            said.0 = Some(percent);
+        }
+    };
+    while wait.recv_timeout(INTERVAL) == Err(RecvTimeoutError::Timeout) {
+        say();
+    }
+    say();
 }
 
 fn lines(state: &dyn Fn() -> State, wait: &Receiver<()>) {

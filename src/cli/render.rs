@@ -1,19 +1,19 @@
 //! `luch render`: a file becomes a scene, a film, and files.
 
-use super::arguments::RenderArguments;
+use super::arguments::{ProgressValue, RenderArguments};
 use super::interrupt::Interrupt;
-use super::outputs::Outputs;
-use super::progress::{self, State};
+use super::outputs::{self, Outputs};
+use super::progress::{self, Listener, State};
 use super::provenance::{self, Input, Made};
 use super::summary::{self, Done, Seconds, Summary};
 use super::values::{BackgroundValue, Size};
-use super::{Failure, cameras, command_line, layers};
+use super::{Failure, cameras, command_line, frames, layers, print, sequence};
 use glam::Vec3;
 use luch::Error;
 use luch::accel::{self, Accel, Isa, Layout};
 use luch::camera::Camera;
 use luch::framing::View;
-use luch::load::{self, Asset, CameraChoice, Choices, Viewpoint};
+use luch::load::{self, AnimationChoice, Asset, CameraChoice, Choices, Viewpoint};
 use luch::output::{self, Display, Header};
 use luch::render::{Progress, Settings, render};
 use std::path::{Path, PathBuf};
@@ -31,18 +31,47 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failure> {
         .num_threads(threads)
         .build()
         .map_err(Failure::usage_or_scene)?;
-    pool.install(|| render_file(arguments))
+    match arguments.sequence.list()? {
+        Some(frames) if !arguments.list_cameras => sequence::run(arguments, &frames, &pool),
+        _ => pool.install(|| render_file(arguments)),
+    }
+}
+
+/// The input's name.
+pub(super) fn name(arguments: &RenderArguments) -> &Path {
+    let input = arguments.input.as_deref();
+    input.unwrap_or(Path::new(FIGURE_4_NAME))
+}
+
+/// Refuses what nobody could mean: two answers on one standard output.
+pub(super) fn check_stdout(arguments: &RenderArguments) -> Result<(), Failure> {
+    if arguments.picture_to_stdout() && arguments.progress == ProgressValue::Openjd {
+        return Err(Failure::usage_or_scene(
+            "-o - and --progress openjd both want standard output; give the picture a name",
+        ));
+    }
+    Ok(())
 }
 
 fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
-    let input = arguments.input.as_deref();
-    let name = input.unwrap_or(Path::new(FIGURE_4_NAME));
     if arguments.list_cameras {
         return cameras::list(arguments);
     }
+    let name = name(arguments);
     let accel_options = accel_options(arguments)?;
     let captured = arguments.provenance.captured()?;
-    let outputs = Outputs::claim(arguments, name, &Interrupt::watch())?;
+    check_stdout(arguments)?;
+    let paths = outputs::paths(arguments, name, false);
+    if let Some(path) = paths.iter().find(|path| frames::holds_pattern(path)) {
+        return Err(Failure::usage_or_scene(format!(
+            "{}: is a name for frames; say which, as in --frames 1-48, or --frames 1",
+            print::path(path)
+        )));
+    }
+    if arguments.sequence.skip_existing && outputs::are_whole(&paths, arguments) {
+        return summary::say_skipped(&paths, arguments);
+    }
+    let outputs = Outputs::claim(&paths, arguments, &Interrupt::watch())?;
 
     let start = Instant::now();
     // Nothing of the one is needed for the other.
@@ -81,7 +110,7 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
         share: progress.share(),
         left: None,
     };
-    let film = progress::shown(arguments.quiet, &state, || {
+    let film = progress::shown(Listener::of(arguments), &state, || {
         render(&scene, &accel, &settings, &progress)
     });
 
@@ -126,7 +155,12 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
 /// The file, or the paper's figure 4.
 pub(super) fn open(arguments: &RenderArguments) -> Result<Asset, Failure> {
     let options = load::Options {
-        animation: arguments.animation.choice(),
+        animation: match arguments.animation.choice() {
+            AnimationChoice::None if arguments.sequence.is_of_an_animation() => {
+                AnimationChoice::First
+            }
+            choice => choice,
+        },
         ..arguments.reading.options()
     };
     match &arguments.input {
@@ -137,14 +171,14 @@ pub(super) fn open(arguments: &RenderArguments) -> Result<Asset, Failure> {
 }
 
 /// What was read, for the files that tell it.
-fn inputs(arguments: &RenderArguments, read: &[PathBuf]) -> Result<Vec<Input>, Failure> {
+pub(super) fn inputs(arguments: &RenderArguments, read: &[PathBuf]) -> Result<Vec<Input>, Failure> {
     let given = [arguments.input.as_deref(), arguments.environment.file()];
     let given: Vec<&Path> = given.into_iter().flatten().collect();
     provenance::inputs(read, &given)
 }
 
 /// The arguments, where they are silent the file, where that is the defaults.
-fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Failure> {
+pub(super) fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Failure> {
     let picture = &asset.picture;
     let (width, height) = if asset.is_scene_file {
         (640, 480)
@@ -187,7 +221,10 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
 /// The vertical field of view that goes with `--eye`, in degrees.
 const FOV_WITH_EYE: f64 = 40.0;
 
-fn viewpoint(arguments: &RenderArguments, settings: &Settings) -> Result<Viewpoint, Failure> {
+pub(super) fn viewpoint(
+    arguments: &RenderArguments,
+    settings: &Settings,
+) -> Result<Viewpoint, Failure> {
     let camera = match (arguments.eye, arguments.target, &arguments.camera) {
         (Some(eye), Some(target), _) if eye == target => {
             return Err(Failure::usage_or_scene(
@@ -232,7 +269,7 @@ fn framed(arguments: &RenderArguments) -> Option<View> {
     })
 }
 
-fn accel_options(arguments: &RenderArguments) -> Result<accel::Options, Failure> {
+pub(super) fn accel_options(arguments: &RenderArguments) -> Result<accel::Options, Failure> {
     Ok(accel::Options {
         preset: arguments.bvh.into(),
         leaf_size: arguments.leaf_size,
@@ -247,7 +284,7 @@ fn accel_options(arguments: &RenderArguments) -> Result<accel::Options, Failure>
     })
 }
 
-fn output_options(
+pub(super) fn output_options(
     arguments: &RenderArguments,
     asset: &Asset,
     choices: &Choices,

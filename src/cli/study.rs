@@ -7,7 +7,7 @@ mod subject;
 pub(super) use arguments::StudyArguments;
 
 use super::interrupt::Interrupt;
-use super::progress::{self, State};
+use super::progress::{self, Listener, State};
 use super::{Failure, command_line, print};
 use arguments::{Common, StudyCommand};
 use folder::Folder;
@@ -255,7 +255,12 @@ fn measure(task: &Task, folder: &Folder, started: Instant) -> Result<(), Failure
     let mut save = |results: &Results| {
         problem = folder.save(results).err().or(problem.take());
     };
-    let pictures = progress::shown(common.quiet, &state, || {
+    let listener = if common.quiet {
+        Listener::Nobody
+    } else {
+        Listener::Person
+    };
+    let pictures = progress::shown(listener, &state, || {
         study::run(&plan, &mut results, &watch, started, &mut save)
     });
     let pictures = pictures.map_err(Failure::usage_or_scene)?;
@@ -308,7 +313,7 @@ fn conclude(
     if results.partial {
         return Err(Failure {
             error: "interrupted; what was measured is written, and --resume goes on".into(),
-            code: super::interrupt::INTERRUPTED as u8,
+            code: super::interrupt::exit_code(),
         });
     }
     Ok(())

@@ -272,19 +272,31 @@ fn mean_samples(film: &Film) -> f64 {
 }
 
 /// The warning about rays that met too many transparent layers, if there are any.
-fn lost_in_layers(count: u64) -> Option<String> {
+pub(super) fn lost_in_layers(count: u64) -> Option<String> {
     let rays = counted(count, "ray", "rays");
     let warning =
         format!("{rays} ended behind {MAX_LAYERS} transparent layers; what lies behind is missing");
     (count > 0).then_some(warning)
 }
 
-fn warn(warning: &str) {
+/// Says that there was nothing to do.
+pub(super) fn say_skipped(paths: &[PathBuf], arguments: &RenderArguments) -> Result<(), Failure> {
+    if arguments.quiet {
+        return Ok(());
+    }
+    let lines: Vec<String> = paths
+        .iter()
+        .map(|path| format!("{} is there and whole", print::path(path)))
+        .collect();
+    say(&lines, arguments)
+}
+
+pub(super) fn warn(warning: &str) {
     print::to_stderr(&format!("warning: {warning}"));
 }
 
 /// Lines to standard output, or to standard error where that is the picture's.
-fn say(lines: &[String], arguments: &RenderArguments) -> Result<(), Failure> {
+pub(super) fn say(lines: &[String], arguments: &RenderArguments) -> Result<(), Failure> {
     if arguments.picture_to_stdout() {
         lines.iter().for_each(|line| print::to_stderr(line));
         return Ok(());

@@ -3,7 +3,7 @@
 use super::environment::EnvironmentChoice;
 use super::names::{self, ModelNames};
 use super::pose::{Pose, PosedMeshes};
-use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
+use super::viewpoint::{self, Choices, PlacedCamera, Stage, Viewpoint};
 use super::{Budget, Model, Warnings};
 use crate::Error;
 use crate::camera::Camera;
@@ -172,8 +172,9 @@ impl Asset {
         } = described;
         let looked_at = self.budget.check(viewpoint::bytes_of_faces(&scene));
         looked_at.map_err(|problem| problem.of(&self.file, "the scene"))?;
-        let framed = viewpoint::camera(self, &cameras, viewpoint, &scene, &mut choices)?;
-        scene.camera = framed.camera;
+        let chosen = viewpoint::chosen(self, &cameras, viewpoint)?;
+        let framed = viewpoint::fitted(viewpoint, &chosen, &scene, &mut choices);
+        scene.camera = chosen.camera().unwrap_or(framed.camera);
         let environment = viewpoint::environment(self, viewpoint, &mut choices)?;
         viewpoint::light(
             self,
@@ -185,6 +186,7 @@ impl Asset {
         );
         scene.ground = viewpoint::ground(self, viewpoint, &framed);
         scene.background = viewpoint::background(self, viewpoint, &mut choices);
+        choices.stage = Some(Stage::of(framed));
         let in_file = |problem| Error::Scene {
             file: self.file.clone(),
             problem,
@@ -196,6 +198,34 @@ impl Asset {
     /// The cameras of its models as they stand at the beginning, in the order in which a user may ask for them by index.
     pub fn cameras(&self) -> Vec<PlacedCamera> {
         viewpoint::cameras(&self.poses(0.0)).collect()
+    }
+
+    /// Whether the animations that it was opened with move anything.
+    pub fn moves(&self) -> bool {
+        let moves = |placed: &PlacedModel| !placed.model.motion.tracks.is_empty();
+        self.models.iter().any(moves)
+    }
+
+    /// The camera at a `time` at which all else is as it was at the time `before`; `None` where something is not.
+    ///
+    /// # Errors
+    ///
+    /// There is no camera of the wanted name.
+    pub fn camera_of_the_same_scene(
+        &self,
+        before: f64,
+        time: f64,
+        viewpoint: &Viewpoint,
+    ) -> Result<Option<Camera>, Error> {
+        let (then, now) = (self.poses(before), self.poses(time));
+        let mut pairs = then.iter().zip(&now);
+        if !pairs.all(|((_, then), (_, now))| then.shows_the_same(now)) {
+            return Ok(None);
+        }
+        let cameras: Vec<PlacedCamera> = viewpoint::cameras(&now).collect();
+        let chosen = viewpoint::chosen(self, &cameras, viewpoint)?;
+        let staged = || viewpoint.stage.as_ref().map(Stage::camera);
+        Ok(chosen.camera().or_else(staged))
     }
 
     /// Each model, and its pose at a time.

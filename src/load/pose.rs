@@ -85,6 +85,30 @@ impl<'a> Pose<'a> {
         pose
     }
 
+    /// Whether another moment of the same model shows the same to a camera, wherever cameras are.
+    pub(super) fn shows_the_same(&self, other: &Pose) -> bool {
+        fn shown<'p>(pose: &'p Pose) -> impl Iterator<Item = (usize, DAffine3, bool)> + 'p {
+            let is_shown = |posed: &&PosedNode| {
+                let Node {
+                    shape,
+                    light,
+                    analytic,
+                    ..
+                } = posed.node;
+                shape.is_some() || light.is_some() || analytic.is_some()
+            };
+            let nodes = pose.nodes.iter().filter(is_shown);
+            nodes.map(|posed| (posed.index, posed.to_model, posed.is_visible))
+        }
+        shown(self).eq(shown(other))
+            && self.materials == other.materials
+            && self.lights == other.lights
+            && self.joints == other.joints
+            && self.moved.node_weights == other.moved.node_weights
+            && self.moved.shape_weights == other.moved.shape_weights
+            && self.nowhere == other.nowhere
+    }
+
     fn follow_tracks(&mut self, time: f64) {
         let model = self.model;
         let moved = &mut self.moved;

@@ -7,7 +7,7 @@ mod ground;
 mod lights;
 
 pub use cameras::PlacedCamera;
-pub(super) use cameras::{camera, cameras};
+pub(super) use cameras::{cameras, chosen, fitted};
 pub(super) use environment::environment;
 pub(super) use faces::bytes_of_faces;
 use faces::faces;
@@ -22,6 +22,7 @@ use crate::environment::Surroundings;
 use crate::framing::View;
 use crate::geometry::Bounds;
 use crate::scene::{Background, Shown};
+use glam::DVec3;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -46,6 +47,30 @@ pub struct Viewpoint {
     pub ground: GroundChoice,
     /// The share of light that this floor mirrors, 0..1.
     pub ground_reflectivity: f32,
+    /// What was found at another moment and is to stay, for pictures that follow each other; cameras of files move on.
+    pub stage: Option<Stage>,
+}
+
+/// What is fitted to an asset at one moment: a framed camera, the floor, the lamp of a room.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    framed: Framed,
+}
+
+impl Stage {
+    pub(in crate::load) fn of(framed: Framed) -> Stage {
+        Stage { framed }
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> Camera {
+        self.framed.camera
+    }
+
+    /// A point of the vertical axis that a turntable has: through the middle of what is seen; in a room, the eye.
+    pub fn pivot(&self) -> DVec3 {
+        self.framed.pivot
+    }
 }
 
 impl Viewpoint {
@@ -61,6 +86,7 @@ impl Viewpoint {
             lights: None,
             ground: GroundChoice::Auto,
             ground_reflectivity: 0.0,
+            stage: None,
         }
     }
 }
@@ -98,7 +124,7 @@ pub enum GroundChoice {
 }
 
 /// A camera, and what is known of the place that it looks at.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(in crate::load) struct Framed {
     /// The camera itself.
     pub(in crate::load) camera: Camera,
@@ -106,6 +132,8 @@ pub(in crate::load) struct Framed {
     pub(in crate::load) bounds: Bounds,
     /// Whether it stands in a room, or under a sky that is a thing.
     pub(in crate::load) is_enclosed: bool,
+    /// What a camera can go around.
+    pub(in crate::load) pivot: DVec3,
 }
 
 /// From where an asset is to be looked at.
@@ -131,6 +159,8 @@ pub struct Choices {
     pub exposure: f32,
     /// The files that were read for it, beside the asset's own.
     pub files: Vec<PathBuf>,
+    /// What was fitted to the asset, or kept.
+    pub stage: Option<Stage>,
 }
 
 /// What lies behind models on a display, in sRGB .87 at the bottom and .70 at the top: dark things stand out from it, and

@@ -10,6 +10,9 @@ mod facts;
 mod mattes;
 mod moment;
 mod samples;
+mod whole;
+
+pub(super) use whole::is_whole;
 
 use super::Options;
 use super::rows::map_rows;

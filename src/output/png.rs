@@ -6,7 +6,7 @@ use super::{BitDepth, Options};
 use crate::color::Rgb;
 use crate::film::{BEAUTY, Film};
 use crate::scene::Shown;
-use std::io::{self, Write};
+use std::io::{self, BufRead, Seek, Write};
 
 /// Writes the beauty: with straight alpha where the background is never shown, else without alpha and with the
 /// background behind everything.
@@ -54,6 +54,16 @@ pub fn rgb_png(width: u32, height: u32, rgb: &[u8]) -> io::Result<Vec<u8>> {
     writer.write_image_data(rgb)?;
     writer.finish()?;
     Ok(bytes)
+}
+
+/// Whether `file` is a PNG from its signature to its end.
+pub(super) fn is_whole(file: impl BufRead + Seek) -> bool {
+    let read = || -> Result<(), png::DecodingError> {
+        let mut reader = png::Decoder::new(file).read_info()?;
+        while reader.next_row()?.is_some() {}
+        reader.finish()
+    };
+    read().is_ok()
 }
 
 /// The bytes of row `y`.

@@ -85,7 +85,29 @@ impl Pyramids {
     }
 }
 
+/// The smaller versions of textures that a scene had made, for one that shows the same images.
+#[derive(Debug)]
+pub struct PreparedTextures(Vec<Planned>);
+
 impl Scene {
+    /// What remains of a scene for the next one.
+    pub fn into_textures(self) -> PreparedTextures {
+        PreparedTextures(self.pyramids.all)
+    }
+
+    /// The same scene, in which nothing is made again that an earlier one of the same asset had made.
+    pub fn with_textures(mut self, PreparedTextures(earlier): PreparedTextures) -> Scene {
+        for (planned, known) in self.pyramids.all.iter_mut().zip(earlier) {
+            let is_of_the_same_image = Arc::ptr_eq(&planned.image, &known.image);
+            let is_made_the_same_way =
+                (planned.encoding, planned.fourth) == (known.encoding, known.fourth);
+            if is_of_the_same_image && is_made_the_same_way {
+                planned.made = known.made;
+            }
+        }
+        self
+    }
+
     /// Makes the smaller versions of textures that a picture with [`TextureFilter::Footprint`] needs, on the threads of the
     /// rayon pool it is called from. `render` does it by itself; who calls this before has something else done meanwhile.
     ///

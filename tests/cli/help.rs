@@ -48,6 +48,11 @@ fn help_names_every_option_and_has_examples() {
         "-v, --verbose",
         "-q, --quiet",
         "--json",
+        "--frames",
+        "--fps",
+        "--turntable",
+        "--skip-existing",
+        "--progress",
         "--scene",
         "--variant",
         "--allow",
@@ -100,14 +105,22 @@ fn every_example_of_the_help_is_one_that_the_program_understands() {
             // A folder that is not there ends it before anything is rendered, if the rest is understood.
             let mut words: Vec<&str> = command.split_whitespace().collect();
             if words.first() == Some(&"render") {
-                words.extend(["-o", "nowhere/a.png"]);
+                let is_sequence = words
+                    .iter()
+                    .any(|word| ["--frames", "--turntable"].contains(word));
+                words.extend([
+                    "-o",
+                    if is_sequence {
+                        "nowhere/a.#.png"
+                    } else {
+                        "nowhere/a.png"
+                    },
+                ]);
                 words.retain(|word| *word != "--json");
             }
             let ran = folder.luch(&words);
-            let is_understood = ran
-                .err
-                .contains("nowhere/a.png: cannot write into its folder")
-                || ran.err.contains("cannot open");
+            let is_understood =
+                ran.err.contains("cannot write into its folder") || ran.err.contains("cannot open");
             assert!(is_understood, "{words:?}: {}", ran.err);
         }
         assert!(examples.count() > 0, "{arguments:?}");

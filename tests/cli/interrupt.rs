@@ -1,4 +1,4 @@
-//! Ctrl-C.
+//! Ctrl-C, and the signals of those who run programs for others.
 
 use super::Folder;
 use std::io::{BufRead, BufReader};
@@ -6,6 +6,17 @@ use std::process::{Command, Stdio};
 
 #[test]
 fn an_interrupt_ends_at_once_and_leaves_no_file() {
+    ends_and_leaves_no_file("-INT", 130);
+}
+
+#[test]
+fn a_termination_ends_at_once_and_leaves_no_file() {
+    ends_and_leaves_no_file("-TERM", 143);
+}
+
+/// Sends a signal to a render that has begun.
+#[track_caller]
+fn ends_and_leaves_no_file(signal: &str, expected: i32) {
     let folder = Folder::with_scene_and_model();
     std::fs::write(folder.path("old.png"), "old").expect("writable");
     // Hours of work.
@@ -22,7 +33,7 @@ fn an_interrupt_ends_at_once_and_leaves_no_file() {
     let read = err.read_line(&mut line);
     let while_it_ran = folder.names();
     let id = child.id().to_string();
-    let signal = Command::new("kill").args(["-INT", &id]).status();
+    let signal = Command::new("kill").args([signal, &id]).status();
     if !signal.as_ref().is_ok_and(|status| status.success()) {
         // Else it would go on for hours.
         child.kill().expect("a running program");
@@ -33,7 +44,7 @@ fn an_interrupt_ends_at_once_and_leaves_no_file() {
     assert_eq!(line, "Progress: 0%\n");
     let temporary = while_it_ran.iter().filter(|name| name.ends_with(".tmp"));
     assert_eq!(temporary.count(), 2, "{while_it_ran:?}");
-    assert_eq!(code, Some(130));
+    assert_eq!(code, Some(expected));
     assert_eq!(folder.names(), ["model.obj", "old.png", "scene.toml"]);
     assert_eq!(folder.read("old.png"), b"old");
 }

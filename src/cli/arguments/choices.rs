@@ -123,6 +123,12 @@ impl From<BuilderValue> for Builder {
     }
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum ProgressValue {
+    Auto,
+    Openjd,
+}
+
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(in crate::cli) enum PresetValue {
     Fastest,

@@ -22,7 +22,8 @@ Examples:
 Each writes a folder: report.html (open it), results.csv and results.json (every raw sample), the plots as SVG and PNG.
 Generated scenes: sphereflake, terrain, grid, hair, random-triangles and random-spheres, as in terrain:1000000.
 
-Exit codes: 0 done, 1 usage or scene, 2 output, 3 a setting changed the picture, 130 interrupted.";
+Exit codes: 0 done, 1 usage or scene, 2 output, 3 a setting changed the picture, 130 interrupted, 143
+terminated.";
 
 /// Everything `luch study` can be told.
 #[derive(Args, Debug)]

@@ -4,7 +4,7 @@ use super::faces;
 use super::{CameraChoice, Choices, Framed, Viewpoint};
 use crate::Error;
 use crate::camera::{Camera, Clip, Fov, Projection};
-use crate::framing::{LeftOut, Subject, View};
+use crate::framing::{Direction, LeftOut, Subject, View};
 use crate::geometry::Bounds;
 use crate::load::pose::Pose;
 use crate::load::{Asset, CameraSource, PlacedModel, choice};
@@ -14,23 +14,39 @@ use glam::DVec3;
 /// So many things that a picture is not fitted to are named.
 const MOST_NAMED: usize = 3;
 
-/// The camera that the user, the file or the framing gives, with the field of view that the user asks for.
-pub(in crate::load) fn camera(
+/// Who says where the camera is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::load) enum Chosen {
+    /// The user or the file.
+    Camera(Camera),
+    /// The framing, like this.
+    Framing(View),
+}
+
+impl Chosen {
+    /// The camera, where it is not framed.
+    pub(in crate::load) fn camera(&self) -> Option<Camera> {
+        match self {
+            Chosen::Camera(camera) => Some(*camera),
+            Chosen::Framing(_) => None,
+        }
+    }
+}
+
+/// The camera that the user or the file gives, with the field of view that the user asks for; or how to frame.
+pub(in crate::load) fn chosen(
     asset: &Asset,
     cameras: &[PlacedCamera],
     viewpoint: &Viewpoint,
-    scene: &SceneDescription,
-    choices: &mut Choices,
-) -> Result<Framed, Error> {
+) -> Result<Chosen, Error> {
     let asked = viewpoint
         .fov_y
         .map(|fov| Projection::Perspective { fov: Fov::Y(fov) });
     let given = |camera: Camera| {
-        let camera = Camera {
+        Chosen::Camera(Camera {
             projection: asked.unwrap_or(camera.projection),
             ..camera
-        };
-        around(camera, scene)
+        })
     };
     let of_file = |name: &str| {
         camera_of_model(cameras, name).map_err(|problem| Error::malformed(&asset.file, "", problem))
@@ -42,9 +58,23 @@ pub(in crate::load) fn camera(
         (CameraChoice::OfFile, Some(CameraSource::OfModel(name))) => of_file(name).map(given),
         (CameraChoice::OfFile, None) => Ok(match cameras.first() {
             Some(placed) => given(placed.camera),
-            None => framed(viewpoint, &View::default(), scene, choices),
+            None => Chosen::Framing(View::default()),
         }),
-        (CameraChoice::Framed(view), _) => Ok(framed(viewpoint, view, scene, choices)),
+        (CameraChoice::Framed(view), _) => Ok(Chosen::Framing(*view)),
+    }
+}
+
+/// What is fitted to the scene, unless it is kept from another moment.
+pub(in crate::load) fn fitted(
+    viewpoint: &Viewpoint,
+    chosen: &Chosen,
+    scene: &SceneDescription,
+    choices: &mut Choices,
+) -> Framed {
+    match (&viewpoint.stage, chosen) {
+        (Some(stage), _) => stage.framed.clone(),
+        (None, Chosen::Camera(camera)) => around(*camera, scene),
+        (None, Chosen::Framing(view)) => framed(viewpoint, view, scene, choices),
     }
 }
 
@@ -72,8 +102,15 @@ fn framed(
             .lines
             .push(format!("camera: fitted to the model{without}"));
     }
+    let camera = subject.camera(view, viewpoint.aspect, viewpoint.fov_y);
+    let is_inside = subject.is_interior() && view.direction == Direction::Broadest;
     Framed {
-        camera: subject.camera(view, viewpoint.aspect, viewpoint.fov_y),
+        camera,
+        pivot: if is_inside || subject.bounds.is_empty() {
+            camera.position
+        } else {
+            subject.bounds.center().as_dvec3()
+        },
         bounds: subject.bounds,
         is_enclosed: subject.is_enclosed(),
     }
@@ -90,6 +127,7 @@ fn around(camera: Camera, scene: &SceneDescription) -> Framed {
     let is_within = eye.cmpge(min).all() && eye.cmple(max).all();
     Framed {
         camera,
+        pivot: camera.look_at,
         bounds,
         is_enclosed: is_within && Subject::of(faces(scene)).is_enclosed(),
     }
