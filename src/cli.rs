@@ -11,6 +11,7 @@ mod layers;
 mod outputs;
 mod print;
 mod progress;
+mod provenance;
 mod reading;
 mod render;
 mod sampling;

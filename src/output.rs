@@ -3,12 +3,14 @@
 mod destination;
 mod display;
 mod exr;
+mod header;
 mod png;
 mod rows;
 mod transfer;
 
 pub use destination::Destination;
 pub use display::Display;
+pub use header::{Fact, Frame, Header};
 pub use png::rgb_png;
 
 use crate::Error;
@@ -56,6 +58,8 @@ pub struct Options {
     pub bit_depth: BitDepth,
     /// What the attribute `comments` says, as a rule the command line. EXR only.
     pub comments: Option<String>,
+    /// What else it says of itself. EXR only.
+    pub header: Header,
 }
 
 /// Bits a channel.
@@ -84,7 +88,7 @@ pub fn encode(
     check(film).map_err(|problem| Error::malformed(name, "", problem))?;
     match format {
         Format::Png => png::write(film, options, out),
-        Format::Exr => exr::write(film, options.comments.as_deref(), out),
+        Format::Exr => exr::write(film, options, out),
     }
     .map_err(Error::io(name, "write"))
 }

@@ -223,7 +223,8 @@ fn by_hand(round: bool) -> Vec<f32> {
         let short = if round { long } else { width };
         let axes = [away * long, away.perp() * short].map(|axis| axis / 2.0);
         let uv = Vec2::new(hit.x, hit.z) / 2.0;
-        texture.sample_over(&pyramid, uv, &Footprint { axes })[0]
+        let taps = Footprint { axes }.taps(texture.image.width, texture.image.height);
+        texture.sample_over(&pyramid, uv, &taps)[0]
     });
     pixels.collect()
 }

@@ -5,6 +5,7 @@ mod choices;
 use super::animation::AnimationArguments;
 use super::environment::EnvironmentArguments;
 use super::layers;
+use super::provenance::ProvenanceArguments;
 use super::reading::Reading;
 use super::sampling::SamplingArguments;
 use super::study::StudyArguments;
@@ -244,6 +245,9 @@ pub(super) struct RenderArguments {
     /// Print the summary as JSON
     #[arg(long)]
     pub(super) json: bool,
+
+    #[command(flatten)]
+    pub(super) provenance: ProvenanceArguments,
 
     #[command(flatten)]
     pub(super) reading: Reading,

@@ -5,9 +5,13 @@
 //! own.
 
 mod attributes;
+mod camera;
+mod facts;
 mod mattes;
+mod moment;
 mod samples;
 
+use super::Options;
 use super::rows::map_rows;
 use crate::film::{Film, Precision};
 use exr::block::{BlockIndex, UncompressedBlock};
@@ -20,16 +24,16 @@ use exr::prelude::Compression;
 use std::io::{self, Write};
 
 /// Writes every layer of `film`.
-pub(super) fn write(film: &Film, comments: Option<&str>, out: &mut dyn Write) -> io::Result<()> {
-    write_parts(film, comments, out).map_err(|error| match error {
+pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::Result<()> {
+    write_parts(film, options, out).map_err(|error| match error {
         exr::error::Error::Io(error) => error,
         other => io::Error::other(other),
     })
 }
 
-fn write_parts(film: &Film, comments: Option<&str>, out: &mut dyn Write) -> Result<()> {
+fn write_parts(film: &Film, options: &Options, out: &mut dyn Write) -> Result<()> {
     let channels = channels_of(film);
-    let headers = [header(film, &channels, comments)];
+    let headers = [header(film, &channels, options)];
     let head = head(&headers)?;
     let chunks = map_rows(film, |y| chunk(film, &channels, &headers, y));
     let chunks: Vec<Vec<u8>> = chunks.into_iter().collect::<Result<_>>()?;
@@ -78,7 +82,7 @@ fn channels_of(film: &Film) -> Vec<Channel> {
     channels
 }
 
-fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
+fn header(film: &Film, channels: &[Channel], options: &Options) -> Header {
     let size = Vec2(film.width as usize, film.height as usize);
     let described = channels.iter().map(|channel| {
         let sample_type = match channel.precision {
@@ -87,7 +91,7 @@ fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
         };
         ChannelDescription::named(attributes::text(&channel.name), sample_type)
     });
-    let mut own = attributes::own(comments);
+    let mut own = attributes::own(film, size, options);
     for (name, value) in film.manifests.iter().flat_map(mattes::attributes) {
         let value = AttributeValue::Text(attributes::text(&value));
         own.other.insert(attributes::text(&name), value);
@@ -98,7 +102,7 @@ fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
             BlockDescription::ScanLines,
             LineOrder::Increasing,
         )
-        .with_shared_attributes(attributes::shared(size))
+        .with_shared_attributes(attributes::shared(size, options))
         .with_attributes(own)
 }
 

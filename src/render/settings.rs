@@ -233,6 +233,16 @@ impl Settings {
         self.sampling.samples
     }
 
+    /// How surfaces answer light.
+    pub fn shading(&self) -> Shading {
+        self.shading
+    }
+
+    /// Which part of a texture a ray shows.
+    pub fn texture_filter(&self) -> TextureFilter {
+        self.texture_filter
+    }
+
     /// The samples of a pixel.
     pub fn sampling(&self) -> Sampling {
         self.sampling
