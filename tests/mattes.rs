@@ -65,10 +65,10 @@ fn ranks(film: &Film, matte: Matte, pixel: usize) -> Vec<(u32, f32)> {
 }
 
 /// Pixels of a unit square each, seen along -Z by parallel rays; nothing is drawn behind them.
-fn before([width, height]: [f64; 2]) -> SceneDescription {
+fn before([width, height]: [f32; 2]) -> SceneDescription {
     let camera = Camera {
         projection: Projection::Orthographic {
-            half_width: width / 2.0,
+            half_width: Some(width / 2.0),
             half_height: height / 2.0,
         },
         ..Camera::looking_at(Vec3::Z * 10.0, Vec3::ZERO, Vec3::Y, 1.0)
@@ -183,15 +183,16 @@ fn what_lies_behind_a_card_has_what_the_card_leaves() {
         coverage: Textured::uniform(0.25),
         channel: AlphaChannel::Alpha,
     };
-    card(&mut of, "card", 1, -2.0, 1.0);
-    card(&mut of, "card again", 1, -2.0, 0.5);
+    // No sample lies on a diagonal, where two triangles of a card meet.
+    card(&mut of, "card", 1, -1.7, 1.0);
+    card(&mut of, "card again", 1, -1.7, 0.5);
     let alone = picture(&scene(of.clone()), &settings([1, 1], Sampling::grid(4)));
     let expected = [(id_of("card"), 0.25), (id_of("card again"), 0.1875)];
     assert_eq!(ranks(&alone, Matte::Object, 0), expected);
     assert_eq!(ranks(&alone, Matte::Material, 0), [(id_of("blue"), 0.4375)]);
     assert_eq!(layer::<4>(&alone, "")[0][3], 0.4375);
 
-    card(&mut of, "wall", 0, -2.0, 0.0);
+    card(&mut of, "wall", 0, -1.7, 0.0);
     let film = picture(&scene(of), &settings([1, 1], Sampling::grid(4)));
     let mut expected = expected.to_vec();
     expected.insert(0, (id_of("wall"), 0.5625));

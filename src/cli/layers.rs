@@ -8,8 +8,11 @@ use luch::render::Settings;
 use luch::scene::Scene;
 use std::path::PathBuf;
 
-/// Every word, and what it asks for.
-const WORDS: [(&str, fn(&mut Layers)); 14] = [
+/// A word, and what it asks for.
+type Word = (&'static str, fn(&mut Layers));
+
+/// Every word.
+const WORDS: [Word; 14] = [
     ("beauty", |_| {}),
     ("data", |layers| {
         *layers = Layers {

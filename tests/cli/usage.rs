@@ -181,7 +181,7 @@ fn a_bad_value_is_told_what_is_expected() {
         (
             "layers <NAMES>",
             "beauty,fog",
-            "there is no layer \"fog\"; known are beauty, data, Z, cost and samples, with commas between",
+            "there is no layer \"fog\"; known are beauty, data, Z, N, P, UV, albedo, cryptomatte, components, lights, bounces, cost, samples, all, with commas between",
         ),
         (
             "background <#RRGGBB|transparent|environment>",
