@@ -8,6 +8,7 @@ mod environment;
 mod info;
 mod interrupt;
 mod layers;
+mod merge;
 mod outputs;
 mod print;
 mod progress;
@@ -71,6 +72,7 @@ pub(crate) fn run() -> ExitCode {
 fn obey(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Render(arguments) => render::run(arguments),
+        Command::Merge(arguments) => merge::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Study(arguments) => study::run(arguments),
         Command::Completions { shell } => {

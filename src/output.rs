@@ -9,6 +9,7 @@ mod transfer;
 
 pub use destination::Destination;
 pub use display::Display;
+pub use exr::merge;
 pub use png::rgb_png;
 
 use crate::Error;

@@ -6,6 +6,7 @@ mod as_exr;
 mod as_png;
 mod destination;
 mod display;
+mod merge;
 
 use luch::Error;
 use luch::color::Rgb;

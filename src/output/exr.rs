@@ -5,7 +5,10 @@
 //! own.
 
 mod attributes;
+mod merge;
 mod samples;
+
+pub use merge::merge;
 
 use super::rows::map_rows;
 use crate::film::{Film, Precision};
@@ -29,17 +32,21 @@ pub(super) fn write(film: &Film, comments: Option<&str>, out: &mut dyn Write) ->
 fn write_parts(film: &Film, comments: Option<&str>, out: &mut dyn Write) -> Result<()> {
     let channels = channels_of(film);
     let headers = [header(film, &channels, comments)];
-    let head = head(&headers)?;
     let chunks = map_rows(film, |y| chunk(film, &channels, &headers, y));
     let chunks: Vec<Vec<u8>> = chunks.into_iter().collect::<Result<_>>()?;
+    finish(&headers, &chunks, out)
+}
 
+/// Writes a whole file, whose blocks are ready.
+fn finish(headers: &[Header; 1], chunks: &[Vec<u8>], out: &mut dyn Write) -> Result<()> {
+    let head = head(headers)?;
     out.write_all(&head)?;
     let mut offset = (head.len() + chunks.len() * size_of::<u64>()) as u64;
-    for chunk in &chunks {
+    for chunk in chunks {
         out.write_all(&offset.to_le_bytes())?;
         offset += chunk.len() as u64;
     }
-    for chunk in &chunks {
+    for chunk in chunks {
         out.write_all(chunk)?;
     }
     out.flush()?;
