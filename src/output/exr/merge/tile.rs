@@ -50,7 +50,7 @@ impl Tile {
         let mut chunks: Vec<Chunk> = found
             .collect::<Result<_, _>>()
             .map_err(said(file, "its blocks"))?;
-        chunks.sort_by_key(|chunk| row_of(chunk));
+        chunks.sort_by_key(row_of);
         let tile = Tile {
             file: file.to_owned(),
             window,
