@@ -3,6 +3,7 @@
 
 mod frame;
 mod load;
+mod write;
 
-criterion::criterion_group!(benches, frame::whole_frames, load::files);
+criterion::criterion_group!(benches, frame::whole_frames, load::files, write::films);
 criterion::criterion_main!(benches);

@@ -12,6 +12,7 @@ mod merge;
 mod outputs;
 mod print;
 mod progress;
+mod provenance;
 mod reading;
 mod render;
 mod sampling;

@@ -1,8 +1,12 @@
 //! The picture: named layers of numbers.
 
+mod data;
+mod matte;
 mod parts;
 mod window;
 
+pub use data::{ALBEDO, NORMAL, POSITION, UV};
+pub use matte::{Manifest, Matte, RANKS, id_of, murmur3};
 pub use parts::{COMPONENTS, FROM_NO_LAMP, Source};
 pub use window::Window;
 
@@ -31,6 +35,8 @@ pub struct Film {
     /// What a display shows where the beauty is transparent; its colour is in the beauty already where it is
     /// [`crate::scene::Shown::Always`].
     pub background: Background,
+    /// What the ids in its mattes stand for.
+    pub manifests: Vec<Manifest>,
     /// False where the render was cancelled: some tiles are black then.
     pub complete: bool,
     /// What the render took.
@@ -67,6 +73,21 @@ pub enum Quantity {
     Cost,
     /// [`SAMPLES`].
     Samples,
+    /// [`NORMAL`].
+    Normal,
+    /// [`POSITION`].
+    Position,
+    /// [`UV`].
+    Uv,
+    /// [`ALBEDO`].
+    Albedo,
+    /// Two of the ranks of a matte, those with the most coverage first: ids, as the bits of floats, and coverages.
+    Matte {
+        /// Whose shares.
+        matte: Matte,
+        /// Which two.
+        pair: usize,
+    },
     /// A part of the light, of these in order: [`Layers::of_parts`].
     Part(usize),
 }
@@ -148,6 +169,16 @@ pub struct Layers {
     pub cost: bool,
     /// [`SAMPLES`].
     pub samples: bool,
+    /// [`NORMAL`].
+    pub normal: bool,
+    /// [`POSITION`].
+    pub position: bool,
+    /// [`UV`].
+    pub uv: bool,
+    /// [`ALBEDO`].
+    pub albedo: bool,
+    /// Which objects and materials share each pixel: [`Layers::of_mattes`].
+    pub mattes: bool,
     /// One for each of [`COMPONENTS`].
     pub components: bool,
     /// One for each lamp of the scene, which are so many, and of [`FROM_NO_LAMP`].
@@ -172,10 +203,29 @@ impl Layers {
         depth: false,
         cost: false,
         samples: false,
+        normal: false,
+        position: false,
+        uv: false,
+        albedo: false,
+        mattes: false,
         components: false,
         lights: None,
         bounces: 0,
     };
+
+    /// What an EXR has unless somebody asks for something else: what compositors use most.
+    pub const FOR_EXR: Layers = Layers {
+        depth: true,
+        normal: true,
+        albedo: true,
+        mattes: true,
+        ..Layers::NONE
+    };
+
+    /// Whether anything is asked of the surface that a sample meets first.
+    pub fn of_surfaces(&self) -> bool {
+        self.normal || self.position || self.uv || self.albedo
+    }
 
     /// The layers, still without values, the beauty first; `lights` are the scene's.
     pub fn list(&self, lights: &[Light]) -> Vec<Layer> {
@@ -183,6 +233,11 @@ impl Layers {
         list.extend(self.depth.then_some(DEPTH));
         list.extend(self.cost.then_some(COST));
         list.extend(self.samples.then_some(SAMPLES));
+        list.extend(self.normal.then_some(NORMAL));
+        list.extend(self.position.then_some(POSITION));
+        list.extend(self.uv.then_some(UV));
+        list.extend(self.albedo.then_some(ALBEDO));
+        list.extend(self.of_mattes());
         list.extend(self.of_parts(lights));
         list
     }

@@ -15,6 +15,7 @@ mod files;
 mod images;
 mod memory;
 mod model;
+mod names;
 mod options;
 mod pose;
 mod tangents;

@@ -3,6 +3,7 @@
 mod destination;
 mod display;
 mod exr;
+mod header;
 mod png;
 mod rows;
 mod transfer;
@@ -10,6 +11,7 @@ mod transfer;
 pub use destination::Destination;
 pub use display::Display;
 pub use exr::merge;
+pub use header::{Fact, Frame, Header};
 pub use png::rgb_png;
 
 use crate::Error;
@@ -57,6 +59,8 @@ pub struct Options {
     pub bit_depth: BitDepth,
     /// What the attribute `comments` says, as a rule the command line. EXR only.
     pub comments: Option<String>,
+    /// What else it says of itself. EXR only.
+    pub header: Header,
 }
 
 /// Bits a channel.
@@ -85,7 +89,7 @@ pub fn encode(
     check(film).map_err(|problem| Error::malformed(name, "", problem))?;
     match format {
         Format::Png => png::write(film, options, out),
-        Format::Exr => exr::write(film, options.comments.as_deref(), out),
+        Format::Exr => exr::write(film, options, out),
     }
     .map_err(Error::io(name, "write"))
 }

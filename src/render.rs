@@ -7,6 +7,7 @@
 
 mod canvas;
 mod known;
+mod matte;
 mod painter;
 mod record;
 mod settings;
@@ -18,12 +19,13 @@ use crate::accel::Accel;
 use crate::camera::View;
 use crate::color::Rgb;
 use crate::environment::MAX_ROUNDS;
-use crate::film::{Film, Window};
+use crate::film::{Film, Manifest, Window};
 use crate::sampling::Offset;
 use crate::scene::Scene;
 use crate::whitted::Rules;
 use canvas::Canvas;
 use known::Known;
+use matte::{Ids, Ranks, Shares};
 use painter::Painter;
 use rayon::prelude::*;
 use record::Record;
@@ -92,6 +94,7 @@ pub fn render(scene: &Scene, accel: &Accel, settings: &Settings, progress: &Prog
         known = std::mem::take(&mut canvas.known);
     }
     let mut film = canvas.film;
+    film.manifests = rendering.manifests;
     film.complete = !progress.is_cancelled();
     film.statistics.time = start.elapsed();
     film
@@ -114,6 +117,9 @@ struct Rendering<'a> {
     /// So many samples see all lights of the environment, if there is one.
     round: u32,
     is_adaptive: bool,
+    /// What mattes need, if there are any.
+    ids: Ids,
+    manifests: Vec<Manifest>,
 }
 
 impl<'a> Rendering<'a> {
@@ -125,6 +131,8 @@ impl<'a> Rendering<'a> {
             weight += offset.weight;
             weight
         }));
+        let mattes = settings.layers.mattes.then(|| Ids::of(scene));
+        let (ids, manifests) = mattes.unwrap_or_default();
         Rendering {
             scene,
             accel,
@@ -136,6 +144,8 @@ impl<'a> Rendering<'a> {
             tolerance: settings.sampling.tolerance(),
             round: scene.environment().map_or(1, |_| MAX_ROUNDS),
             is_adaptive: settings.is_adaptive(),
+            ids,
+            manifests,
         }
     }
 
@@ -185,6 +195,13 @@ impl<'a> Rendering<'a> {
     fn mean(&self, record: &Record) -> [f32; 4] {
         let weight = self.weights.get(record.samples as usize).copied();
         record.mean(weight.unwrap_or(1.0), self.settings.sampling.filter)
+    }
+
+    /// Which objects and materials have the greatest shares of a pixel.
+    fn ranks(&self, record: &Record, shares: &Shares) -> [Ranks; 2] {
+        let weight = self.weights.get(record.samples as usize).copied();
+        let filter = self.settings.sampling.filter;
+        self.ids.ranks(shares, weight.unwrap_or(1.0), filter)
     }
 
     /// The mean of a part of a pixel's light, whose sum is `part`.

@@ -14,10 +14,12 @@ mod lanes;
 mod onward;
 mod parts;
 mod refract;
+mod seen;
 mod transparent;
 
 pub use count::Counts;
 pub use parts::Parts;
+pub use seen::{First, Share};
 
 use crate::accel::Accel;
 use crate::camera::View;
@@ -114,6 +116,11 @@ pub struct Tracer<'a> {
     pub counts: Option<Vec<Counts>>,
     /// What the light of each sample of a batch is made of, if somebody wants to know.
     pub parts: Option<Parts>,
+    /// What each sample of a batch met first, if somebody wants to know.
+    pub firsts: Option<Vec<First>>,
+    /// Which shares of the samples of a batch objects have, if somebody wants to know: along each sample, the nearest
+    /// first.
+    pub shares: Option<Vec<Share>>,
     paths: Paths,
     /// What goes on from where `paths` end.
     further: Paths,
@@ -143,6 +150,8 @@ impl<'a> Tracer<'a> {
             watched: false,
             counts: None,
             parts: Parts::of(rules.layers),
+            firsts: rules.layers.of_surfaces().then(Vec::new),
+            shares: rules.layers.mattes.then(Vec::new),
             paths: Paths::default(),
             further: Paths::default(),
             hits: Vec::new(),
@@ -179,6 +188,7 @@ impl<'a> Tracer<'a> {
         if let Some(parts) = &mut self.parts {
             parts.start(camera_rays.len());
         }
+        self.start_seeing(camera_rays.len());
         self.statistics.camera_rays += camera_rays.len() as u64;
         self.paths
             .start(view, self.rules.share_of_pixel(), camera_rays);
@@ -187,6 +197,7 @@ impl<'a> Tracer<'a> {
             self.pass_ground(number, samples);
             self.look();
             self.add_own_light(view, samples);
+            self.share_samples();
             let arrivals = take(&mut self.arrivals);
             if self.rules.shading != Shading::Flat {
                 for (number, lamp) in (0..).zip(self.scene.lamps()) {
@@ -292,6 +303,14 @@ impl<'a> Tracer<'a> {
                     sample.depth = view.depth(&self.paths.rays[path], hit.t);
                     sample.object = self.scene.object_of(hit.primitive, &mut self.recent);
                     sample.normal = places[index / WIDTH].true_normal(index % WIDTH);
+                    let firsts = self.firsts.as_mut();
+                    let first = firsts.and_then(|all| all.get_mut(arrival.sample as usize));
+                    if let Some(first) = first {
+                        let place = places[index / WIDTH].get(index % WIDTH);
+                        let ray = &self.paths.rays[path];
+                        let met = (ray, hit, &place);
+                        *first = First::of(self.scene, met, surface, &mut self.recent);
+                    }
                 }
             }
         }

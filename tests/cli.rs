@@ -8,6 +8,7 @@ mod interrupt;
 mod isa;
 mod outputs;
 mod pipes;
+mod provenance;
 mod reading;
 mod said;
 mod scenes;

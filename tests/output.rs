@@ -6,6 +6,7 @@ mod as_exr;
 mod as_png;
 mod destination;
 mod display;
+mod header;
 mod merge;
 
 use luch::Error;
@@ -33,6 +34,7 @@ fn film(width: u32, shown: Shown, pixels: &[[f32; 4]]) -> Film {
             layer(DEPTH, depth),
         ],
         background: Background::plain(Rgb::new(0.5, 0.25, 1.0), shown),
+        manifests: Vec::new(),
         complete: true,
         statistics: Statistics::default(),
     }

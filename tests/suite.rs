@@ -19,6 +19,7 @@ mod layers;
 mod load_gltf;
 mod load_obj;
 mod load_scene_file;
+mod mattes;
 mod models;
 mod output;
 mod parts;

@@ -5,6 +5,7 @@ mod choices;
 use super::animation::AnimationArguments;
 use super::environment::EnvironmentArguments;
 use super::layers;
+use super::provenance::ProvenanceArguments;
 use super::reading::Reading;
 use super::sampling::SamplingArguments;
 use super::study::StudyArguments;
@@ -190,10 +191,11 @@ pub(super) struct RenderArguments {
     #[arg(long, value_name = "EV", allow_hyphen_values = true, value_parser = values::stops)]
     pub(super) exposure: Option<f32>,
 
-    /// What an EXR holds, with commas between: beauty; Z, the depth, or data, all such layers; components, its light by
-    /// what surfaces did to it; lights, by where it came from; bounces, what mirrors show by how many there were; cost, the
-    /// nodes and primitives that the rays of each pixel were tested against; samples, how many it got; or all. Of the last
-    /// two a PNG gets heat maps beside it [default: beauty,data]
+    /// What an EXR holds, with commas between: beauty; data, which is Z (depth), N (normals), P (positions), UV and albedo,
+    /// or some of these; cryptomatte, shares of objects and of materials; components, its light by what surfaces did to it;
+    /// lights, by where it came from; bounces, what mirrors show by how many there were; cost, the nodes and primitives that
+    /// the rays of each pixel were tested against, and samples, how many it got, or these alone; or all. Of the counts a PNG
+    /// gets heat maps beside it [default: beauty,Z,N,albedo,cryptomatte]
     #[arg(long, value_name = "NAMES", value_parser = layers::parse)]
     pub(super) layers: Option<Layers>,
 
@@ -250,6 +252,9 @@ pub(super) struct RenderArguments {
     /// Print the summary as JSON
     #[arg(long)]
     pub(super) json: bool,
+
+    #[command(flatten)]
+    pub(super) provenance: ProvenanceArguments,
 
     #[command(flatten)]
     pub(super) reading: Reading,

@@ -2,7 +2,7 @@
 
 use super::arguments::{RenderArguments, is_stdout};
 use super::interrupt::Interrupt;
-use super::{Failure, print};
+use super::{Failure, layers, print};
 use luch::Error;
 use luch::film::Film;
 use luch::output::{self, Destination, Format, Options};
@@ -44,7 +44,7 @@ impl Outputs {
         };
         let mut files = Vec::new();
         let mut heat_maps = Vec::new();
-        let maps = Mapped::of(&arguments.layers.unwrap_or_default());
+        let maps = Mapped::of(&layers::asked(arguments));
         for path in paths.iter().filter(|path| !is_stdout(path)) {
             let file = interrupt.claim(path).map_err(Failure::output)?;
             if file.format() == Format::Png {
@@ -68,6 +68,12 @@ impl Outputs {
                 to_stdout,
             }),
         }
+    }
+
+    /// Whether one of them says where a picture comes from.
+    pub(super) fn tell_of_inputs(&self) -> bool {
+        let mut files = self.files.iter().map(Destination::format);
+        self.to_stdout == Some(Format::Exr) || files.any(|format| format == Format::Exr)
     }
 
     /// Refuses to overwrite what was read.

@@ -4,6 +4,7 @@ use super::arguments::RenderArguments;
 use super::interrupt::Interrupt;
 use super::outputs::Outputs;
 use super::progress::{self, State};
+use super::provenance::{self, Input, Made};
 use super::summary::{self, Done, Seconds, Summary};
 use super::values::{BackgroundValue, Size};
 use super::{Failure, cameras, command_line, layers};
@@ -13,9 +14,9 @@ use luch::accel::{self, Accel, Isa, Layout};
 use luch::camera::Camera;
 use luch::framing::View;
 use luch::load::{self, Asset, CameraChoice, Choices, Viewpoint};
-use luch::output::{self, Display};
+use luch::output::{self, Display, Header};
 use luch::render::{Progress, Settings, render};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// The paper's figure 4, for who gives no file.
@@ -40,6 +41,7 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
         return cameras::list(arguments);
     }
     let accel_options = accel_options(arguments)?;
+    let captured = arguments.provenance.captured()?;
     let outputs = Outputs::claim(arguments, name, &Interrupt::watch())?;
 
     let start = Instant::now();
@@ -59,12 +61,20 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     // A picture is encoded beside the film.
     let room = asset.check_film(&scene, 2 * settings.film_bytes());
     room.map_err(Failure::usage_or_scene)?;
+    let read: Vec<PathBuf> = asset.files.iter().chain(&choices.files).cloned().collect();
+    outputs.spare(&read)?;
     let load = start.elapsed();
     summary::announce(arguments, &asset, &choices);
 
-    // Neither needs the other.
+    // None needs another.
     let build = || Accel::build(&scene, &accel_options);
-    let (accel, ()) = rayon::join(build, || settings.prepare(&scene));
+    let inputs = || match outputs.tell_of_inputs() {
+        true => inputs(arguments, &read),
+        false => Ok(Vec::new()),
+    };
+    let beside = || rayon::join(|| settings.prepare(&scene), inputs);
+    let (accel, ((), inputs)) = rayon::join(build, beside);
+    let inputs = inputs?;
     let progress = Progress::default();
     let state = || State {
         doing: "rendering".into(),
@@ -76,7 +86,16 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     });
 
     let start = Instant::now();
-    let options = output_options(arguments, &asset, &choices);
+    let header = provenance::header(&Made {
+        arguments: &arguments.provenance,
+        captured,
+        inputs: &inputs,
+        scene: &scene,
+        accel: &accel,
+        settings: &settings,
+        film: &film,
+    });
+    let options = output_options(arguments, &asset, &choices, header);
     let written = outputs.write(&film, &options)?;
     let render = film.statistics.time.as_secs_f64();
     let rays = render * film.statistics.search_share();
@@ -117,6 +136,13 @@ pub(super) fn open(arguments: &RenderArguments) -> Result<Asset, Failure> {
     .map_err(Failure::usage_or_scene)
 }
 
+/// What was read, for the files that tell it.
+fn inputs(arguments: &RenderArguments, read: &[PathBuf]) -> Result<Vec<Input>, Failure> {
+    let given = [arguments.input.as_deref(), arguments.environment.file()];
+    let given: Vec<&Path> = given.into_iter().flatten().collect();
+    provenance::inputs(read, &given)
+}
+
 /// The arguments, where they are silent the file, where that is the defaults.
 fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Failure> {
     let picture = &asset.picture;
@@ -140,7 +166,7 @@ fn settings(arguments: &RenderArguments, asset: &Asset) -> Result<Settings, Fail
         shading.unwrap_or_default(),
     )
     .and_then(|settings| settings.with_sampling(sampling))
-    .and_then(|settings| settings.with_layers(arguments.layers.unwrap_or_default()))
+    .and_then(|settings| settings.with_layers(layers::asked(arguments)))
     .map(|settings| settings.with_texture_filter(texture_filter.unwrap_or_default()))
     .map_err(|error| {
         let asked = [
@@ -225,6 +251,7 @@ fn output_options(
     arguments: &RenderArguments,
     asset: &Asset,
     choices: &Choices,
+    header: Header,
 ) -> output::Options {
     // A scene file's colours are taken at their word.
     let display = if asset.is_scene_file {
@@ -237,5 +264,6 @@ fn output_options(
         exposure: choices.exposure,
         bit_depth: arguments.bit_depth.into(),
         comments: Some(command_line()),
+        header,
     }
 }

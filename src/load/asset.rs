@@ -1,6 +1,7 @@
 //! What a file holds, before a choice of camera and time makes a scene of it.
 
 use super::environment::EnvironmentChoice;
+use super::names::{self, ModelNames};
 use super::pose::{Pose, PosedMeshes};
 use super::viewpoint::{self, Choices, PlacedCamera, Viewpoint};
 use super::{Budget, Model, Warnings};
@@ -150,7 +151,8 @@ impl Asset {
         let poses = self.poses(time);
         let places = poses
             .iter()
-            .map(|(placed, pose)| placed.add_to(pose, &mut scene, &mut choices))
+            .zip(names::of_models(self))
+            .map(|((placed, pose), names)| placed.add_to(pose, names, &mut scene, &mut choices))
             .collect();
         Described {
             scene,
@@ -271,6 +273,7 @@ impl PlacedModel {
     fn add_to(
         &self,
         pose: &Pose,
+        names: ModelNames,
         scene: &mut SceneDescription,
         choices: &mut Choices,
     ) -> Vec<Option<u32>> {
@@ -280,32 +283,39 @@ impl PlacedModel {
         scene.textures.extend_from_slice(&model.textures);
         scene
             .materials
-            .extend(pose.materials.iter().map(|material| {
-                let mut material = material.clone();
-                material
-                    .textures_mut()
-                    .for_each(|used| used.texture += first_texture);
-                material
-            }));
+            .extend(
+                pose.materials
+                    .iter()
+                    .zip(names.materials)
+                    .map(|(material, name)| {
+                        let mut material = material.clone();
+                        material.name = name;
+                        material
+                            .textures_mut()
+                            .for_each(|used| used.texture += first_texture);
+                        material
+                    }),
+            );
         let mut meshes = PosedMeshes::of(pose);
         for posed in pose.nodes.iter().filter(|posed| posed.is_visible) {
             let node = posed.node;
+            let name = names.nodes.get(posed.index).map_or("", String::as_str);
             let to_world = self.to_world * posed.to_model;
             if let Some(light) = node.light.and_then(|light| pose.lights.get(light)) {
-                let name = if light.name.is_empty() {
+                let of_light = if light.name.is_empty() {
                     &node.name
                 } else {
                     &light.name
                 };
                 let carried = viewpoint::carried(light, &to_world);
                 scene.lights.push(Light {
-                    name: name.clone(),
+                    name: of_light.clone(),
                     ..carried
                 });
             }
             if let Some(analytic) = &node.analytic {
                 let material = self.material.unwrap_or(first_material + analytic.material);
-                analytic.add_to(scene, &node.name, material, to_world);
+                analytic.add_to(scene, name, material, to_world);
             }
             let parts = node
                 .shape
@@ -315,7 +325,7 @@ impl PlacedModel {
                 let (mesh, to_model) = meshes.place(posed, part, &mut scene.meshes);
                 for to_model in node.places(to_model) {
                     scene.instances.push(Instance {
-                        name: node.name.clone(),
+                        name: name.to_owned(),
                         mesh,
                         material: self.material.unwrap_or(first_material + part.material),
                         to_world: self.to_world * to_model,

@@ -48,7 +48,7 @@ pub(super) struct Pose<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PosedNode<'a> {
     /// Its index in the model.
-    index: usize,
+    pub(super) index: usize,
     /// The node itself.
     pub(super) node: &'a Node,
     /// From its space to the model's.

@@ -22,6 +22,7 @@ use crate::environment::Surroundings;
 use crate::framing::View;
 use crate::geometry::Bounds;
 use crate::scene::{Background, Shown};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// How an asset is to be looked at.
@@ -128,6 +129,8 @@ pub struct Choices {
     /// Stops by which a display should change the picture: those asked for or, where a model has lights of its own, in
     /// candela or lux, those with which they neither wash the picture out nor leave it dark.
     pub exposure: f32,
+    /// The files that were read for it, beside the asset's own.
+    pub files: Vec<PathBuf>,
 }
 
 /// What lies behind models on a display, in sRGB .87 at the bottom and .70 at the top: dark things stand out from it, and

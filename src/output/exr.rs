@@ -5,33 +5,38 @@
 //! own.
 
 mod attributes;
+mod camera;
+mod facts;
+mod mattes;
 mod merge;
+mod moment;
 mod samples;
 
 pub use merge::merge;
 
+use super::Options;
 use super::rows::map_rows;
 use crate::film::{Film, Precision};
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::Result;
 use exr::math::Vec2;
-use exr::meta::attribute::{self, ChannelDescription, LineOrder, SampleType, Text};
+use exr::meta::attribute::{self, AttributeValue, ChannelDescription, LineOrder, SampleType, Text};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData, magic_number, sequence_end};
 use exr::prelude::Compression;
 use std::io::{self, Write};
 
 /// Writes every layer of `film`.
-pub(super) fn write(film: &Film, comments: Option<&str>, out: &mut dyn Write) -> io::Result<()> {
-    write_parts(film, comments, out).map_err(|error| match error {
+pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::Result<()> {
+    write_parts(film, options, out).map_err(|error| match error {
         exr::error::Error::Io(error) => error,
         other => io::Error::other(other),
     })
 }
 
-fn write_parts(film: &Film, comments: Option<&str>, out: &mut dyn Write) -> Result<()> {
+fn write_parts(film: &Film, options: &Options, out: &mut dyn Write) -> Result<()> {
     let channels = channels_of(film);
-    let headers = [header(film, &channels, comments)];
+    let headers = [header(film, &channels, options)];
     let chunks = map_rows(film, |y| chunk(film, &channels, &headers, y));
     let chunks: Vec<Vec<u8>> = chunks.into_iter().collect::<Result<_>>()?;
     finish(&headers, &chunks, out)
@@ -84,7 +89,7 @@ fn channels_of(film: &Film) -> Vec<Channel> {
     channels
 }
 
-fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
+fn header(film: &Film, channels: &[Channel], options: &Options) -> Header {
     let size = Vec2(film.width as usize, film.height as usize);
     let display = Vec2(film.display_width as usize, film.display_height as usize);
     let described = channels.iter().map(|channel| {
@@ -94,14 +99,19 @@ fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
         };
         ChannelDescription::named(attributes::text(&channel.name), sample_type)
     });
+    let mut own = attributes::own(film, display, options);
+    for (name, value) in film.manifests.iter().flat_map(mattes::attributes) {
+        let value = AttributeValue::Text(attributes::text(&value));
+        own.other.insert(attributes::text(&name), value);
+    }
     Header::new(Text::default(), size, described.collect())
         .with_encoding(
             Compression::ZIP1,
             BlockDescription::ScanLines,
             LineOrder::Increasing,
         )
-        .with_shared_attributes(attributes::shared(display))
-        .with_attributes(attributes::own(comments))
+        .with_shared_attributes(attributes::shared(display, options))
+        .with_attributes(own)
         .with_position(Vec2(film.left, film.top))
 }
 

@@ -28,6 +28,7 @@ fn encoded(film: &Film, options: &Options) -> Result<Vec<u8>, png::EncodingError
         BitDepth::Sixteen => png::BitDepth::Sixteen,
     });
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(png::Compression::Fast);
     let mut writer = encoder.write_header()?;
     let mut lines = writer.stream_writer()?;
     for line in map_rows(film, |y| line(film, options, y)) {

@@ -1,13 +1,14 @@
 //! Where tiles put their pixels.
 
 use super::known::Known;
+use super::matte::KnownShares;
 use super::painter::Pixels;
 use super::record::Record;
 use super::{Rendering, Settings};
 use crate::color::Rgb;
 use crate::film::{Film, Layer, Quantity, Window};
 use crate::scene::Scene;
-use crate::whitted::Counts;
+use crate::whitted::{Counts, First};
 
 /// The film, and what is known of its pixels beside.
 pub(super) struct Canvas {
@@ -34,6 +35,9 @@ impl Canvas {
             if settings.layers.cost {
                 known.counts = vec![Counts::default(); pixels];
             }
+            if settings.layers.mattes {
+                known.shares = vec![KnownShares::default(); pixels];
+            }
         }
         Canvas {
             film: Film {
@@ -45,6 +49,7 @@ impl Canvas {
                 display_height: settings.height,
                 layers: list.into_iter().map(blank).collect(),
                 background: scene.background(),
+                manifests: Vec::new(),
                 complete: false,
                 statistics: Default::default(),
             },
@@ -81,6 +86,22 @@ impl Canvas {
                     }
                     Quantity::Depth => values.fill(record.depth),
                     Quantity::Samples => values.fill(record.samples as f32),
+                    Quantity::Matte { matte, pair } => {
+                        if let Some(ranks) = pixels.ranks.get(number) {
+                            let two = ranks[matte as usize].as_flattened().chunks(values.len());
+                            let two = two.skip(pair).flatten();
+                            values
+                                .iter_mut()
+                                .zip(two)
+                                .for_each(|(to, from)| *to = *from);
+                        }
+                    }
+                    quantity => {
+                        // What an earlier pass found stays where this one found nothing nearer.
+                        if let Some(Some(first)) = pixels.firsts.get(number) {
+                            put_first(quantity, first, values);
+                        }
+                    }
                 }
             }
         }
@@ -94,6 +115,7 @@ impl Canvas {
             records,
             counts,
             parts,
+            shares,
             ..
         } = &mut self.known;
         for (number, place) in pixels.places.iter().enumerate() {
@@ -107,6 +129,9 @@ impl Canvas {
             if let (Some(kept), Some(count)) = (counts.get_mut(index), pixels.counts.get(number)) {
                 *kept = *count;
             }
+            if let (Some(kept), Some(found)) = (shares.get_mut(index), pixels.shares.get(number)) {
+                *kept = found.known();
+            }
             let part_of = |pixel: usize| pixel * of_pixel..(pixel + 1) * of_pixel;
             let found = pixels.parts.get(part_of(number));
             if let (Some(kept), Some(found)) = (parts.get_mut(part_of(index)), found) {
@@ -114,4 +139,20 @@ impl Canvas {
             }
         }
     }
+}
+
+/// Puts one of the quantities of what a pixel's nearest sample met.
+fn put_first(quantity: Quantity, first: &First, values: &mut [f32]) {
+    let Rgb { r, g, b } = first.albedo;
+    let found = match quantity {
+        Quantity::Normal => &first.normal.to_array()[..],
+        Quantity::Position => &first.position.to_array(),
+        Quantity::Uv => &first.uv.to_array(),
+        Quantity::Albedo => &[r, g, b],
+        _ => return,
+    };
+    values
+        .iter_mut()
+        .zip(found)
+        .for_each(|(to, from)| *to = *from);
 }

@@ -1,5 +1,6 @@
 //! What the first pass finds out for the second.
 
+use super::matte::KnownShares;
 use super::record::Record;
 use crate::color::Rgb;
 use crate::film::Window;
@@ -16,6 +17,8 @@ pub(super) struct Known {
     pub(super) counts: Vec<Counts>,
     /// The parts of its light, added up, where they are wanted.
     pub(super) parts: Vec<Rgb>,
+    /// Whose shares it has, where that is wanted.
+    pub(super) shares: Vec<KnownShares>,
 }
 
 impl Known {

@@ -2,12 +2,14 @@
 
 use super::Rendering;
 use super::known::Known;
+use super::matte::{Ranks, Shares};
 use super::record::Record;
 use super::tile::Tile;
 use crate::color::Rgb;
+use crate::film::Layers;
 use crate::ray::Ray;
 use crate::sampling::BASE;
-use crate::whitted::{Counts, Parts, Rules, Sample, Tracer};
+use crate::whitted::{Counts, First, Parts, Rules, Sample, Tracer};
 use std::time::Instant;
 
 /// Some pixels, and what is known of them.
@@ -20,9 +22,60 @@ pub(super) struct Pixels {
     pub(super) counts: Vec<Counts>,
     /// The parts of their light, pixel by pixel, added up as the records are.
     pub(super) parts: Vec<Rgb>,
+    /// What the nearest of their samples met, where it is nearer than all that an earlier pass knows; empty unless
+    /// somebody wants to know.
+    pub(super) firsts: Vec<Option<First>>,
+    /// Which objects have shares of them; empty unless somebody wants to know.
+    pub(super) shares: Vec<Shares>,
+    /// The greatest of these.
+    pub(super) ranks: Vec<[Ranks; 2]>,
 }
 
 impl Pixels {
+    /// Makes room for what samples see in so many pixels.
+    fn start_seeing(&mut self, layers: &Layers) {
+        let pixels = self.places.len();
+        self.firsts.clear();
+        if layers.of_surfaces() {
+            self.firsts.resize(pixels, None);
+        }
+        if layers.mattes {
+            Shares::clear(&mut self.shares, pixels);
+        }
+    }
+
+    /// Takes over what a sample of each pixel of `pixel_of` saw, before the records know of it.
+    fn add_seen(
+        &mut self,
+        tracer: &Tracer,
+        samples: &[Sample],
+        weight: f32,
+        pixel_of: impl Fn(usize) -> usize,
+    ) {
+        let firsts = tracer.firsts.iter().flatten();
+        for (index, (first, sample)) in firsts.zip(samples).enumerate() {
+            let pixel = pixel_of(index);
+            let known = self.records.get(pixel);
+            let is_nearer = known.is_none_or(|known| sample.depth < known.depth);
+            if let (true, Some(nearest)) = (is_nearer, self.firsts.get_mut(pixel)) {
+                *nearest = Some(*first);
+            }
+        }
+        for share in tracer.shares.iter().flatten() {
+            if let Some(shares) = self.shares.get_mut(pixel_of(share.sample as usize)) {
+                shares.add(share, weight);
+            }
+        }
+    }
+
+    /// Finds the greatest shares.
+    fn rank(&mut self, rendering: &Rendering) {
+        self.ranks.clear();
+        let shares = self.records.iter().zip(&self.shares);
+        let ranks = shares.map(|(record, shares)| rendering.ranks(record, shares));
+        self.ranks.extend(ranks);
+    }
+
     /// Adds a sample's parts to those of pixel number `index`.
     fn add_parts(&mut self, index: usize, parts: &[Rgb], weight: f32) {
         let start = index * parts.len();
@@ -76,6 +129,7 @@ impl<'a> Painter<'a> {
         records.resize(places.len(), Record::EMPTY);
         self.count_costs(self.pixels.places.len());
         let rendering = self.rendering;
+        self.pixels.start_seeing(&rendering.settings.layers);
         let parts = self.pixels.places.len() * rendering.settings.layers.parts();
         self.pixels.parts.clear();
         self.pixels.parts.resize(parts, Rgb::BLACK);
@@ -91,6 +145,8 @@ impl<'a> Painter<'a> {
             let view = &rendering.view;
             view.primary_rays(&self.columns, &self.rows, &mut self.rays);
             self.trace(number);
+            let (pixels, samples) = (&mut self.pixels, &self.samples);
+            pixels.add_seen(&self.tracer, samples, offset.weight, |index| index);
             for (record, sample) in self.pixels.records.iter_mut().zip(&self.samples) {
                 record.add(sample, offset.weight);
                 if rendering.is_adaptive {
@@ -105,6 +161,7 @@ impl<'a> Painter<'a> {
         self.pixels.counts.clear();
         let counts = self.tracer.counts.iter().flatten();
         self.pixels.counts.extend(counts);
+        self.pixels.rank(rendering);
         if watched {
             self.tracer.statistics.watched += start.elapsed();
         }
@@ -142,6 +199,9 @@ impl<'a> Painter<'a> {
                     .view
                     .primary_rays_at(&self.positions, &mut self.rays);
                 self.trace(number);
+                let (pixels, samples) = (&mut self.pixels, &self.samples);
+                let pixel_of = |index: usize| self.active.get(index).map_or(usize::MAX, |at| *at);
+                pixels.add_seen(&self.tracer, samples, offset.weight, pixel_of);
                 for (&index, sample) in self.active.iter().zip(&self.samples) {
                     let record = &mut self.pixels.records[index];
                     record.add(sample, offset.weight);
@@ -159,6 +219,7 @@ impl<'a> Painter<'a> {
                 counts.primitives += count.primitives;
             }
         }
+        self.pixels.rank(rendering);
         if watched {
             self.tracer.statistics.watched += start.elapsed();
         }
@@ -172,6 +233,7 @@ impl<'a> Painter<'a> {
             records,
             counts,
             parts,
+            ..
         } = &mut self.pixels;
         places.clear();
         records.clear();
@@ -193,8 +255,17 @@ impl<'a> Painter<'a> {
             let known = known.parts.get(index * of_pixel..(index + 1) * of_pixel);
             parts.extend(known.into_iter().flatten());
         }
+        let count = places.len();
+        self.pixels.start_seeing(&self.rendering.settings.layers);
+        let pixels = self.pixels.places.iter().zip(&mut self.pixels.shares);
+        for (place, shares) in pixels {
+            let index = known.area.index(*place);
+            if let Some(known) = index.and_then(|index| known.shares.get(index)) {
+                shares.go_on_from(known);
+            }
+        }
         self.active.clear();
-        self.active.extend(0..places.len());
+        self.active.extend(0..count);
     }
 
     /// Starts to count what the next batches of rays are tested against, if somebody wants to know.

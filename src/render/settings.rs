@@ -1,5 +1,6 @@
 //! What a picture should be like, checked once.
 
+use super::matte::KnownShares;
 use super::record::Record;
 use crate::color::Rgb;
 use crate::film::{Layers, Quantity, Window};
@@ -225,6 +226,7 @@ impl Settings {
         if self.is_adaptive() {
             known += size_of::<Record>() + parts;
             known += usize::from(self.layers.cost) * size_of::<Counts>();
+            known += usize::from(self.layers.mattes) * size_of::<KnownShares>();
         }
         let bytes =
             |window: Window, of_pixel: usize| window.pixels().saturating_mul(of_pixel as u64);
@@ -284,6 +286,16 @@ impl Settings {
     /// A pixel; the most, where sampling is adaptive.
     pub fn samples(&self) -> u32 {
         self.sampling.samples
+    }
+
+    /// How surfaces answer light.
+    pub fn shading(&self) -> Shading {
+        self.shading
+    }
+
+    /// Which part of a texture a ray shows.
+    pub fn texture_filter(&self) -> TextureFilter {
+        self.texture_filter
     }
 
     /// The samples of a pixel.

@@ -130,11 +130,17 @@ impl<'a> Mix<'a> {
         })
     }
 
+    /// The first set of texture coordinates; zero where the mesh has none.
+    pub(super) fn uv(&self) -> Vec2 {
+        let [first, _] = &self.mesh.uvs;
+        self.mixed(first, Vec2::ZERO)
+    }
+
     /// What textures are looked up with, at a point.
     pub(super) fn vertex(&self) -> Vertex {
-        let [first, second] = &self.mesh.uvs;
+        let [_, second] = &self.mesh.uvs;
         let mut vertex = Vertex::neutral();
-        vertex.uvs[0] = self.mixed(first, Vec2::ZERO);
+        vertex.uvs[0] = self.uv();
         if !second.is_empty() {
             vertex.uvs[1] = self.mixed(second, Vec2::ZERO);
         }

@@ -11,7 +11,7 @@ use crate::mesh::normal_matrix;
 use crate::ray::Ray;
 use crate::shade::Reflectance;
 use crate::texture::Footprint;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// A surface where a ray met it.
 #[derive(Clone, Copy, Debug)]
@@ -246,6 +246,17 @@ impl Scene {
             through,
             from_behind: self.diffuse_from_behind(&material.model, &vertex),
             coverage,
+        }
+    }
+
+    /// The first set of texture coordinates at `hit`: (0, 0) is the upper left of a texture. Zero where there is none.
+    pub fn uv(&self, hit: &Hit, recent: &mut Recent) -> Vec2 {
+        match self.primitive_near(hit.primitive, recent) {
+            Primitive::Sphere(_) | Primitive::Plane(_) => Vec2::ZERO,
+            Primitive::Triangle { instance, triangle } => {
+                let mesh = self.mesh(self.instances[instance].mesh);
+                Mix::new(mesh, triangle, hit.barycentric).uv()
+            }
         }
     }
 

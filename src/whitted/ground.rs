@@ -3,6 +3,7 @@
 use super::batch::{FROM_GROUND, Path, Promised};
 use super::environment::{before, over};
 use super::parts::{By, Did};
+use super::seen::middle;
 use super::{Sample, Tracer};
 use crate::accel::Shadow;
 use crate::color::Rgb;
@@ -70,6 +71,7 @@ impl Tracer<'_> {
             let at = self.grounded[index];
             let presence = ground.presence(at.position);
             let seen = over(at.lost, at.all).map(|shadow| 1.0 - presence * shadow.max(0.0));
+            self.share_with_ground(at.path, at.energy, at.energy * seen);
             self.see_past(at.path, at.energy * seen, samples);
         }
         self.grounded.clear();
@@ -183,8 +185,7 @@ impl Tracer<'_> {
         let (light, source) = match (background.shown, scene.environment()) {
             // There is one alpha for all colours: of tinted sheets it has the middle.
             (Shown::OnDisplay | Shown::Never, _) if path.direct => {
-                let Rgb { r, g, b } = energy;
-                sample.alpha -= 0.5 * (r.max(g).max(b) + r.min(g).min(b));
+                sample.alpha -= middle(energy);
                 return;
             }
             (Shown::Always, _) if path.direct => (background.color, Source::Background),

@@ -36,6 +36,8 @@ fn help_names_every_option_and_has_examples() {
         "--exposure",
         "--layers",
         "--bit-depth",
+        "--owner",
+        "--timestamp",
         "--background",
         "--bvh",
         "--bvh-builder",

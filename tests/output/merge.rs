@@ -45,6 +45,7 @@ fn film(window: Window) -> Film {
             },
         ],
         background: Background::plain(Rgb::BLACK, Shown::Never),
+        manifests: Vec::new(),
         complete: true,
         statistics: Statistics::default(),
     }
