@@ -282,7 +282,8 @@ pub(super) struct MergeArguments {
     #[arg(required = true, value_name = "TILE")]
     pub(super) tiles: Vec<PathBuf>,
 
-    /// Where the picture goes: an .exr file. All of it but the attribute comments is as one run gives it
+    /// Where the picture goes: an .exr file. But for comments, and counts of rays where sampling is
+    /// adaptive, it is as one run gives it
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: PathBuf,
 

@@ -13,6 +13,7 @@ use crate::film::Window;
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::error::Result as ExrResult;
 use exr::math::Vec2;
+use exr::meta::attribute::AttributeValue;
 use exr::meta::header::Header;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -39,7 +40,7 @@ pub fn merge(files: &[PathBuf], comments: Option<&str>) -> Result<Vec<u8>, Error
         same::check(first, tile)?;
     }
     let window = whole::window_of(&tiles)?;
-    let headers = [header(first, window, comments)];
+    let headers = [header(first, &tiles, window, comments)];
     tile::check_bytes(&first.file, &headers[0])?;
 
     let lines = headers[0].compression.scan_lines_per_block();
@@ -59,8 +60,20 @@ pub fn merge(files: &[PathBuf], comments: Option<&str>) -> Result<Vec<u8>, Error
 }
 
 /// The first tile's header, for all pixels.
-fn header(first: &Tile, window: Window, comments: Option<&str>) -> Header {
+fn header(first: &Tile, tiles: &[Tile], window: Window, comments: Option<&str>) -> Header {
     let mut header = first.header().clone();
+    for (name, value) in &mut header.own_attributes.other {
+        if let AttributeValue::F64(sum) = value
+            && same::is_counted(name.as_slice())
+        {
+            let of = |tile: &Tile| tile.header().own_attributes.other.get(name).cloned();
+            let counts = tiles.iter().filter_map(of);
+            *sum = counts.fold(0.0, |sum, count| match count {
+                AttributeValue::F64(count) => sum + count,
+                _ => sum,
+            });
+        }
+    }
     header.layer_size = Vec2(window.width as usize, window.height as usize);
     if let Some(comments) = comments {
         let of_first = header.own_attributes.comments.as_ref();

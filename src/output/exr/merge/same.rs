@@ -15,6 +15,15 @@ const MAY_DIFFER: [&[u8]; 5] = [
     b"utcOffset",
 ];
 
+/// What is counted in each tile by itself, by the start of its name: the picture has the sum. Of rays that adaptive
+/// sampling sends around a tile to compare its pixels with, each tile has its own.
+const COUNTED: [&[u8]; 2] = [b"luch/rays/", b"luch/samples"];
+
+/// Whether the attribute of this name is a count that tiles add up.
+pub(super) fn is_counted(name: &[u8]) -> bool {
+    COUNTED.iter().any(|start| name.starts_with(start))
+}
+
 /// Finds whether `tile` is of the same picture as the first.
 pub(super) fn check(first: &Tile, tile: &Tile) -> Result<(), Error> {
     let other = |place: &str, found: String, expected: String| {
@@ -56,7 +65,7 @@ fn attributes(header: &Header) -> Vec<(Vec<u8>, AttributeValue)> {
     let all = header.all_named_attributes();
     let mut all: Vec<_> = all
         .map(|(name, value)| (name.to_vec(), value))
-        .filter(|(name, _)| !MAY_DIFFER.contains(&name.as_slice()))
+        .filter(|(name, _)| !MAY_DIFFER.contains(&name.as_slice()) && !is_counted(name))
         .collect();
     all.sort_by(|(a, _), (b, _)| a.cmp(b));
     all
