@@ -9,6 +9,7 @@ mod frames;
 mod info;
 mod interrupt;
 mod layers;
+mod merge;
 mod outputs;
 mod print;
 mod progress;
@@ -101,6 +102,7 @@ fn caught(work: impl FnOnce() -> Result<(), Failure>) -> Result<(), Failure> {
 fn obey(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Render(arguments) => render::run(arguments),
+        Command::Merge(arguments) => merge::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Study(arguments) => study::run(arguments),
         Command::Completions { shell } => {

@@ -10,6 +10,7 @@ mod transfer;
 
 pub use destination::Destination;
 pub use display::Display;
+pub use exr::merge;
 pub use header::{Fact, Frame, Header};
 pub use png::rgb_png;
 

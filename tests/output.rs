@@ -7,6 +7,7 @@ mod as_png;
 mod destination;
 mod display;
 mod header;
+mod merge;
 
 use luch::Error;
 use luch::color::Rgb;

@@ -45,6 +45,8 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Render a model or a scene file to a picture
     Render(Box<RenderArguments>),
+    /// Put the tiles of a picture together, as one run would have rendered it
+    Merge(MergeArguments),
     /// Tell what is in a file, and what luch makes of it
     Info(InfoArguments),
     /// Measure how the search tree affects render time, and write a report
@@ -69,6 +71,7 @@ impl Command {
     pub(super) fn is_verbose(&self) -> bool {
         match self {
             Command::Render(arguments) => arguments.verbose,
+            Command::Merge(arguments) => arguments.verbose,
             Command::Info(arguments) => arguments.verbose,
             Command::Study(arguments) => arguments.is_verbose(),
             Command::Completions { .. } => false,
@@ -289,6 +292,34 @@ impl RenderArguments {
 /// Whether a path stands for standard output.
 pub(super) fn is_stdout(path: &Path) -> bool {
     path == Path::new("-")
+}
+
+/// Everything `luch merge` can be told.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "Example:\n  luch render a.glb --tile 1/2 -o 1.exr && luch render a.glb --tile 2/2 -o 2.exr\n  luch merge 1.exr 2.exr -o a.exr\n\nExit codes: 0 done, 1 tiles that make no picture, 2 output, 130 interrupted."
+)]
+pub(super) struct MergeArguments {
+    /// The EXRs of all tiles, in any order
+    #[arg(required = true, value_name = "TILE")]
+    pub(super) tiles: Vec<PathBuf>,
+
+    /// Where the picture goes: an .exr file. But for comments, and counts of rays where sampling is
+    /// adaptive, it is as one run gives it
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: PathBuf,
+
+    /// Threads to use [default: all cores]
+    #[arg(short, long, value_name = "N", allow_negative_numbers = true, value_parser = whole_number(1..=1024))]
+    pub(super) threads: Option<u32>,
+
+    /// Say the causes of an error
+    #[arg(short, long, conflicts_with = "quiet")]
+    pub(super) verbose: bool,
+
+    /// Say nothing but errors
+    #[arg(short, long)]
+    pub(super) quiet: bool,
 }
 
 /// Everything `luch info` can be told.

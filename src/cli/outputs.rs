@@ -138,7 +138,7 @@ impl Outputs {
 }
 
 /// The one spelling of a path, links followed; of a file that is still to come, its folder's and its name.
-fn place(path: &Path) -> PathBuf {
+pub(super) fn place(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| {
         let folder = match path.parent() {
             Some(folder) if folder != "" => folder,

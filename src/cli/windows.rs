@@ -14,7 +14,8 @@ pub(super) struct WindowArguments {
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, conflicts_with = "tile", value_parser = crop)]
     crop: Option<Crop>,
 
-    /// Render tile I of N alone, from 1: one of N strips from the top; or the tile in column I of NX and row J of NY
+    /// Render tile I of N alone, from 1: one of N strips from the top; or the tile in column I of NX and row J of NY.
+    /// luch merge puts the EXRs of all of them together
     #[arg(long, value_name = "I/N|I,J/NX,NY", allow_hyphen_values = true, value_parser = tile)]
     tile: Option<Tile>,
 

@@ -8,11 +8,14 @@ mod attributes;
 mod camera;
 mod facts;
 mod mattes;
+mod merge;
 mod moment;
 mod samples;
 mod whole;
 
 pub(super) use whole::is_whole;
+
+pub use merge::merge;
 
 use super::Options;
 use super::rows::map_rows;
@@ -37,17 +40,21 @@ pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::
 fn write_parts(film: &Film, options: &Options, out: &mut dyn Write) -> Result<()> {
     let channels = channels_of(film);
     let headers = [header(film, &channels, options)];
-    let head = head(&headers)?;
     let chunks = map_rows(film, |y| chunk(film, &channels, &headers, y));
     let chunks: Vec<Vec<u8>> = chunks.into_iter().collect::<Result<_>>()?;
+    finish(&headers, &chunks, out)
+}
 
+/// Writes a whole file, whose blocks are ready.
+fn finish(headers: &[Header; 1], chunks: &[Vec<u8>], out: &mut dyn Write) -> Result<()> {
+    let head = head(headers)?;
     out.write_all(&head)?;
     let mut offset = (head.len() + chunks.len() * size_of::<u64>()) as u64;
-    for chunk in &chunks {
+    for chunk in chunks {
         out.write_all(&offset.to_le_bytes())?;
         offset += chunk.len() as u64;
     }
-    for chunk in &chunks {
+    for chunk in chunks {
         out.write_all(chunk)?;
     }
     out.flush()?;

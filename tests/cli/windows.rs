@@ -108,3 +108,69 @@ fn a_window_that_cannot_be_is_told_what_can() {
     }
     assert_eq!(folder.names(), ["model.obj", "scene.toml"]);
 }
+
+#[test]
+fn tiles_are_merged_to_what_one_run_gives() {
+    let folder = Folder::new(&[]);
+    let scene = asset("scenes/figure-4.toml");
+    let render = |more: &[&str], name: &str| {
+        let usual = ["render", &scene, "--size", "24x16", "--layers", "all"];
+        folder.luch_succeeds(&[&usual[..], &["-q", "-o", name], more].concat());
+    };
+    render(&["--overscan", "1"], "whole.exr");
+    for tile in ["1/2", "2/2"] {
+        let name = format!("{}.exr", &tile[..1]);
+        render(&["--overscan", "1", "--tile", tile], &name);
+    }
+    let ran = folder.luch_succeeds(&["merge", "2.exr", "1.exr", "-o", "merged.exr"]);
+    assert_eq!(ran.out(), "wrote merged.exr\n");
+    // All that stands behind the attributes, which differ in comments alone.
+    let [whole, merged] = ["whole.exr", "merged.exr"].map(|name| folder.read(name));
+    let blocks = |bytes: &[u8]| {
+        let read = exr::block::read(std::io::Cursor::new(bytes), true).expect("an EXR");
+        let mut header = read.headers()[0].clone();
+        let comments = header
+            .own_attributes
+            .comments
+            .take()
+            .map(|text| text.to_string());
+        let blocks: Vec<String> = read
+            .all_chunks(true)
+            .expect("blocks")
+            .map(|chunk| format!("{:?}", chunk.expect("a block")))
+            .collect();
+        (
+            format!("{:?}", header.data_window()),
+            header.all_named_attributes().count(),
+            blocks,
+            comments,
+        )
+    };
+    let ((window, attributes, pixels, _), (found, count, merged, comments)) =
+        (blocks(&whole), blocks(&merged));
+    assert!(window == found && attributes == count && pixels == merged);
+    let comments = comments.unwrap_or_default();
+    assert!(
+        comments.starts_with("luch merge 2.exr 1.exr -o merged.exr\nluch render "),
+        "{comments}"
+    );
+    for (arguments, code, error) in [
+        (
+            &["merge", "1.exr", "2.exr", "-o", "1.exr"][..],
+            1,
+            "1.exr: is one of the tiles; choose another output",
+        ),
+        (
+            &["merge", "1.exr", "2.exr", "-o", "a.png"],
+            1,
+            "a.png: its name does not end in .exr; tiles are merged to an EXR",
+        ),
+        (
+            &["merge", "lost.exr", "-o", "a.exr"],
+            1,
+            "lost.exr: cannot open: No such file or directory (os error 2)",
+        ),
+    ] {
+        folder.luch_fails(arguments, code, error);
+    }
+}
