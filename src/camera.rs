@@ -117,28 +117,31 @@ impl Camera {
         [u, u.cross(w), w]
     }
 
-    /// This camera for a picture of `width x height` pixels, both above zero.
-    pub fn view(&self, width: u32, height: u32) -> View {
-        let [u, v, w] = self.basis();
-        let aspect = f64::from(width) / f64::from(height);
+    /// Half of what a picture `aspect` times as wide as high shows from left to right, and from bottom to top: at distance 1
+    /// where rays meet in a point, in the scene's unit.
+    pub fn half_extents(&self, aspect: f64) -> [f64; 2] {
         let tan_half = |angle: f64| libm::tan(angle / 2.0);
-        let (x, y) = match self.projection {
-            Projection::Perspective { fov: Fov::X(fov) } => (tan_half(fov), tan_half(fov) / aspect),
-            Projection::Perspective { fov: Fov::Y(fov) } => (tan_half(fov) * aspect, tan_half(fov)),
+        match self.projection {
+            Projection::Perspective { fov: Fov::X(fov) } => [tan_half(fov), tan_half(fov) / aspect],
+            Projection::Perspective { fov: Fov::Y(fov) } => [tan_half(fov) * aspect, tan_half(fov)],
             Projection::Perspective {
                 fov: Fov::Both(x, y),
-            } => (tan_half(x), tan_half(y)),
+            } => [tan_half(x), tan_half(y)],
             Projection::Orthographic {
                 half_width,
                 half_height,
             } => {
                 let half_height = f64::from(half_height);
-                (
-                    half_width.map_or(half_height * aspect, f64::from),
-                    half_height,
-                )
+                let half_width = half_width.map_or(half_height * aspect, f64::from);
+                [half_width, half_height]
             }
-        };
+        }
+    }
+
+    /// This camera for a picture of `width x height` pixels, both above zero.
+    pub fn view(&self, width: u32, height: u32) -> View {
+        let [u, v, w] = self.basis();
+        let [x, y] = self.half_extents(f64::from(width) / f64::from(height));
         let half_size = [f64::from(width) / 2.0, f64::from(height) / 2.0];
         let pixel = (x / half_size[0] * (y / half_size[1])).sqrt() as f32;
         View {

@@ -12,6 +12,7 @@ mod layers;
 mod outputs;
 mod print;
 mod progress;
+mod provenance;
 mod reading;
 mod render;
 mod sampling;
@@ -19,6 +20,7 @@ mod sequence;
 mod study;
 mod summary;
 mod values;
+mod windows;
 
 use arguments::{Arguments, Command};
 use clap::error::ErrorKind;

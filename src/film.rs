@@ -1,8 +1,10 @@
 //! The picture: named layers of numbers.
 
 mod parts;
+mod window;
 
 pub use parts::{COMPONENTS, FROM_NO_LAMP, Source};
+pub use window::Window;
 
 use crate::light::Light;
 use crate::scene::Background;
@@ -12,10 +14,18 @@ use std::time::Duration;
 /// What a render leaves behind.
 #[derive(Clone, Debug)]
 pub struct Film {
-    /// In pixels.
+    /// Of the pixels that the film has, in pixels.
     pub width: u32,
-    /// In pixels.
+    /// Of the pixels that the film has, in pixels.
     pub height: u32,
+    /// The column of its leftmost pixels in the whole picture; negative to the left of it.
+    pub left: i32,
+    /// The row of its uppermost pixels in the whole picture; negative above it.
+    pub top: i32,
+    /// Of the whole picture, in pixels.
+    pub display_width: u32,
+    /// Of the whole picture, in pixels.
+    pub display_height: u32,
     /// The beauty first.
     pub layers: Vec<Layer>,
     /// What a display shows where the beauty is transparent; its colour is in the beauty already where it is
@@ -237,6 +247,16 @@ impl Statistics {
 }
 
 impl Film {
+    /// The pixels that it has.
+    pub fn window(&self) -> Window {
+        Window {
+            left: self.left,
+            top: self.top,
+            width: self.width,
+            height: self.height,
+        }
+    }
+
     /// The layer with exactly these channels, where the film has it.
     pub fn layer(&self, channels: &[&str]) -> Option<&Layer> {
         self.layers.iter().find(|layer| layer.channels == channels)

@@ -3,12 +3,14 @@
 mod destination;
 mod display;
 mod exr;
+mod header;
 mod png;
 mod rows;
 mod transfer;
 
 pub use destination::Destination;
 pub use display::Display;
+pub use header::{Fact, Frame, Header};
 pub use png::rgb_png;
 
 use crate::Error;
@@ -70,6 +72,8 @@ pub struct Options {
     pub bit_depth: BitDepth,
     /// What the attribute `comments` says, as a rule the command line. EXR only.
     pub comments: Option<String>,
+    /// What else it says of itself. EXR only.
+    pub header: Header,
 }
 
 /// Bits a channel.
@@ -98,7 +102,7 @@ pub fn encode(
     check(film).map_err(|problem| Error::malformed(name, "", problem))?;
     match format {
         Format::Png => png::write(film, options, out),
-        Format::Exr => exr::write(film, options.comments.as_deref(), out),
+        Format::Exr => exr::write(film, options, out),
     }
     .map_err(Error::io(name, "write"))
 }
@@ -116,6 +120,21 @@ fn check(film: &Film) -> Result<(), String> {
     if !sides.contains(&width) || !sides.contains(&height) {
         return Err(format!(
             "the film is {width} x {height} pixels, expected 1 to {MAX_SIDE} each way"
+        ));
+    }
+    let display = [film.display_width, film.display_height];
+    if !display.iter().all(|side| sides.contains(side)) {
+        return Err(format!(
+            "the film is of a picture of {} x {} pixels, expected 1 to {MAX_SIDE} each way",
+            film.display_width, film.display_height
+        ));
+    }
+    let (window, furthest) = (film.window(), i64::from(MAX_SIDE));
+    let is_near = |from: i32, to: i64| i64::from(from) >= -furthest && to <= furthest;
+    if !is_near(window.left, window.right()) || !is_near(window.top, window.bottom()) {
+        return Err(format!(
+            "the film begins at {},{}, expected it within {MAX_SIDE} pixels of the picture",
+            film.left, film.top
         ));
     }
     if film.layer(BEAUTY.channels).is_none() {

@@ -2,7 +2,8 @@
 //!
 //! Where sampling is adaptive (Whitted 1980: more samples only where neighbouring ones differ), there are two passes over
 //! all tiles: the first takes a few samples of every pixel, the second more of those that differ from one another or from
-//! a neighbour's. All that the second needs of other pixels is from the first, so that no pixel depends on tiles.
+//! a neighbour's. All that the second needs of other pixels is from the first, so that no pixel depends on tiles; and
+//! the first takes those around the window, too, so that none depends on the window.
 
 mod canvas;
 mod known;
@@ -17,7 +18,7 @@ use crate::accel::Accel;
 use crate::camera::View;
 use crate::color::Rgb;
 use crate::environment::MAX_ROUNDS;
-use crate::film::Film;
+use crate::film::{Film, Window};
 use crate::sampling::Offset;
 use crate::scene::Scene;
 use crate::whitted::Rules;
@@ -71,9 +72,10 @@ pub fn render(scene: &Scene, accel: &Accel, settings: &Settings, progress: &Prog
     let start = Instant::now();
     settings.prepare(scene);
     let rendering = Rendering::new(scene, accel, settings);
-    let mut passes = vec![rendering.tiles(settings.tile_side)];
+    let mut passes = vec![rendering.tiles(settings.area(), settings.tile_side)];
     if rendering.is_adaptive {
-        passes.push(rendering.tiles(settings.tile_side.saturating_mul(TILES_TOGETHER)));
+        let side = settings.tile_side.saturating_mul(TILES_TOGETHER);
+        passes.push(rendering.tiles(settings.window, side));
     }
     // As if both passes took the same time.
     let steps = passes.iter().flatten().map(|tile| rendering.steps(tile));
@@ -137,9 +139,9 @@ impl<'a> Rendering<'a> {
         }
     }
 
-    /// The whole picture in tiles of this side.
-    fn tiles(&self, side: u32) -> Vec<Tile> {
-        Tile::whole(self.settings).tiles(side).collect()
+    /// A window in tiles of this side.
+    fn tiles(&self, window: Window, side: u32) -> Vec<Tile> {
+        Tile::all(window).tiles(side).collect()
     }
 
     /// How far a tile brings a pass: so many tiles of the first are in it.

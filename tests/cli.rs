@@ -1,5 +1,6 @@
 //! The program as its users meet it: what it prints, what it leaves on the disk, and how it ends.
 
+mod farm;
 mod files;
 mod help;
 mod info;
@@ -8,12 +9,14 @@ mod interrupt;
 mod isa;
 mod outputs;
 mod pipes;
+mod provenance;
 mod reading;
 mod said;
 mod scenes;
 mod sequence;
 mod study;
 mod usage;
+mod windows;
 
 use serde_json::Value;
 use std::fs;

@@ -6,6 +6,7 @@ mod as_exr;
 mod as_png;
 mod destination;
 mod display;
+mod header;
 
 use luch::Error;
 use luch::color::Rgb;
@@ -23,6 +24,10 @@ fn film(width: u32, shown: Shown, pixels: &[[f32; 4]]) -> Film {
     Film {
         width,
         height: pixels.len() as u32 / width,
+        left: 0,
+        top: 0,
+        display_width: width,
+        display_height: pixels.len() as u32 / width,
         layers: vec![
             layer(BEAUTY, pixels.as_flattened().to_vec()),
             layer(DEPTH, depth),

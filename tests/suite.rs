@@ -25,3 +25,4 @@ mod parts;
 mod refraction;
 mod study;
 mod textures;
+mod windows;

@@ -6,10 +6,12 @@ use super::animation::AnimationArguments;
 use super::environment::EnvironmentArguments;
 use super::frames::SequenceArguments;
 use super::layers;
+use super::provenance::ProvenanceArguments;
 use super::reading::Reading;
 use super::sampling::SamplingArguments;
 use super::study::StudyArguments;
 use super::values::{self, BackgroundValue, Size, whole_number};
+use super::windows::WindowArguments;
 pub(super) use choices::{
     BitDepthValue, BuilderValue, DirectionValue, FormatValue, GroundValue, LightsValue,
     PresetValue, ProgressValue, ShadingValue, TextureFilterValue,
@@ -122,6 +124,9 @@ pub(super) struct RenderArguments {
     /// The picture's height in pixels
     #[arg(long, value_name = "PIXELS", allow_negative_numbers = true, value_parser = whole_number(0..=u32::MAX))]
     pub(super) height: Option<u32>,
+
+    #[command(flatten)]
+    pub(super) window: WindowArguments,
 
     /// Samples a pixel, at most 65536; a square number for the pattern grid; the most, where sampling is adaptive
     /// [default: the scene file's, or 1; 16 for models]
@@ -265,6 +270,9 @@ pub(super) struct RenderArguments {
     /// Print the summary as JSON
     #[arg(long)]
     pub(super) json: bool,
+
+    #[command(flatten)]
+    pub(super) provenance: ProvenanceArguments,
 
     #[command(flatten)]
     pub(super) reading: Reading,

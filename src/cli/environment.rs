@@ -81,6 +81,14 @@ impl EnvironmentArguments {
         Ok((surrounding, start.elapsed()))
     }
 
+    /// The picture that they name, if they name one.
+    pub(super) fn file(&self) -> Option<&Path> {
+        match &self.environment {
+            Some(EnvironmentValue(EnvironmentLight::File(path))) => Some(path),
+            _ => None,
+        }
+    }
+
     /// What they say.
     pub(super) fn choice(&self) -> Result<EnvironmentChoice, Failure> {
         let asked = self

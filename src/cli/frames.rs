@@ -67,6 +67,12 @@ impl SequenceArguments {
         self.fps.unwrap_or_default().time(frame)
     }
 
+    /// So many frames in so many seconds, where time goes on.
+    pub(super) fn per_second(&self) -> Option<[u32; 2]> {
+        let Rate { frames, seconds } = self.fps.unwrap_or_default();
+        self.is_of_an_animation().then_some([frames, seconds])
+    }
+
     /// How far around a frame's view is, in radians.
     pub(super) fn angle(&self, frame: u32) -> f64 {
         let share = |views: u32| f64::from(frame.saturating_sub(1)) / f64::from(views);

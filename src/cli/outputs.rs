@@ -90,6 +90,12 @@ impl Outputs {
         }
     }
 
+    /// Whether one of them says where a picture comes from.
+    pub(super) fn tell_of_inputs(&self) -> bool {
+        let mut files = self.files.iter().map(Destination::format);
+        self.to_stdout == Some(Format::Exr) || files.any(|format| format == Format::Exr)
+    }
+
     /// Refuses to overwrite what was read.
     pub(super) fn spare(&self, read: &[PathBuf]) -> Result<(), Failure> {
         let read: Vec<PathBuf> = read.iter().map(|file| place(file)).collect();

@@ -4,6 +4,7 @@ use super::arguments::{ProgressValue, RenderArguments};
 use super::interrupt::Interrupt;
 use super::outputs::{self, Outputs};
 use super::progress::{self, Listener, State};
+use super::provenance::{self, Input, Made};
 use super::summary::{self, Done, Seconds, Summary};
 use super::values::{BackgroundValue, Size};
 use super::{Failure, cameras, command_line, frames, layers, print, sequence};
@@ -13,9 +14,9 @@ use luch::accel::{self, Accel, Isa, Layout};
 use luch::camera::Camera;
 use luch::framing::View;
 use luch::load::{self, AnimationChoice, Asset, CameraChoice, Choices, Viewpoint};
-use luch::output::{self, Display};
+use luch::output::{self, Display, Header};
 use luch::render::{Progress, Settings, render};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// The paper's figure 4, for who gives no file.
@@ -58,6 +59,7 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     }
     let name = name(arguments);
     let accel_options = accel_options(arguments)?;
+    let captured = arguments.provenance.captured()?;
     check_stdout(arguments)?;
     let paths = outputs::paths(arguments, name, false);
     if let Some(path) = paths.iter().find(|path| frames::holds_pattern(path)) {
@@ -76,7 +78,7 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     let (asset, beside) = rayon::join(|| open(arguments), || arguments.environment.beside(name));
     let (mut asset, (surrounding, environment)) = (asset?, beside?);
     outputs.spare(&asset.files)?;
-    let settings = settings(arguments, &asset)?;
+    let settings = arguments.window.of(settings(arguments, &asset)?)?;
     let viewpoint = Viewpoint {
         environment: surrounding,
         ..viewpoint(arguments, &settings)?
@@ -88,12 +90,20 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     // A picture is encoded beside the film.
     let room = asset.check_film(&scene, 2 * settings.film_bytes());
     room.map_err(Failure::usage_or_scene)?;
+    let read: Vec<PathBuf> = asset.files.iter().chain(&choices.files).cloned().collect();
+    outputs.spare(&read)?;
     let load = start.elapsed();
     summary::announce(arguments, &asset, &choices);
 
-    // Neither needs the other.
+    // None needs another.
     let build = || Accel::build(&scene, &accel_options);
-    let (accel, ()) = rayon::join(build, || settings.prepare(&scene));
+    let inputs = || match outputs.tell_of_inputs() {
+        true => inputs(arguments, &read),
+        false => Ok(Vec::new()),
+    };
+    let beside = || rayon::join(|| settings.prepare(&scene), inputs);
+    let (accel, ((), inputs)) = rayon::join(build, beside);
+    let inputs = inputs?;
     let progress = Progress::default();
     let state = || State {
         doing: "rendering".into(),
@@ -105,7 +115,16 @@ fn render_file(arguments: &RenderArguments) -> Result<(), Failure> {
     });
 
     let start = Instant::now();
-    let options = output_options(arguments, &asset, &choices);
+    let header = provenance::header(&Made {
+        arguments: &arguments.provenance,
+        captured,
+        inputs: &inputs,
+        scene: &scene,
+        accel: &accel,
+        settings: &settings,
+        film: &film,
+    });
+    let options = output_options(arguments, &asset, &choices, header);
     let written = outputs.write(&film, &options)?;
     let render = film.statistics.time.as_secs_f64();
     let rays = render * film.statistics.search_share();
@@ -149,6 +168,13 @@ pub(super) fn open(arguments: &RenderArguments) -> Result<Asset, Failure> {
         None => load::scene_file::parse(FIGURE_4, Path::new(FIGURE_4_NAME), &options),
     }
     .map_err(Failure::usage_or_scene)
+}
+
+/// What was read, for the files that tell it.
+pub(super) fn inputs(arguments: &RenderArguments, read: &[PathBuf]) -> Result<Vec<Input>, Failure> {
+    let given = [arguments.input.as_deref(), arguments.environment.file()];
+    let given: Vec<&Path> = given.into_iter().flatten().collect();
+    provenance::inputs(read, &given)
 }
 
 /// The arguments, where they are silent the file, where that is the defaults.
@@ -262,6 +288,7 @@ pub(super) fn output_options(
     arguments: &RenderArguments,
     asset: &Asset,
     choices: &Choices,
+    header: Header,
 ) -> output::Options {
     // A scene file's colours are taken at their word.
     let display = if asset.is_scene_file {
@@ -274,5 +301,6 @@ pub(super) fn output_options(
         exposure: choices.exposure,
         bit_depth: arguments.bit_depth.into(),
         comments: Some(command_line()),
+        header,
     }
 }

@@ -83,7 +83,7 @@ pub(super) fn run(
     };
     let state = || sequence.state();
     progress::shown(Listener::of(arguments), &state, || {
-        let mut world = pool.install(|| World::open(arguments))?;
+        let mut world = pool.install(|| World::open(arguments, &first.outputs))?;
         summary.opened(&world);
         sequence.render(&mut world, first, pool, &mut summary)
     })?;
@@ -166,7 +166,7 @@ impl Sequence<'_> {
     ) -> Result<(), Failure> {
         let mut next = Some(first);
         while let Some(job) = next {
-            job.outputs.spare(&world.asset.files)?;
+            job.outputs.spare(&world.read)?;
             let (frame, after) = (job.frame, job.index + 1);
             let Some(progress) = self.begin(&job) else {
                 return Ok(());
@@ -178,9 +178,9 @@ impl Sequence<'_> {
             }
             summary.rendered(&film, world, is_tree_kept);
             let rendered = Rendered {
+                options: world.output_options(frame, &film)?,
                 job,
                 film,
-                options: world.output_options(),
                 is_tree_kept,
             };
             if films.send(rendered).is_err() {

@@ -5,11 +5,15 @@
 //! own.
 
 mod attributes;
+mod camera;
+mod facts;
+mod moment;
 mod samples;
 mod whole;
 
 pub(super) use whole::is_whole;
 
+use super::Options;
 use super::rows::map_rows;
 use crate::film::{Film, Precision};
 use exr::block::{BlockIndex, UncompressedBlock};
@@ -22,16 +26,16 @@ use exr::prelude::Compression;
 use std::io::{self, Write};
 
 /// Writes every layer of `film`.
-pub(super) fn write(film: &Film, comments: Option<&str>, out: &mut dyn Write) -> io::Result<()> {
-    write_parts(film, comments, out).map_err(|error| match error {
+pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::Result<()> {
+    write_parts(film, options, out).map_err(|error| match error {
         exr::error::Error::Io(error) => error,
         other => io::Error::other(other),
     })
 }
 
-fn write_parts(film: &Film, comments: Option<&str>, out: &mut dyn Write) -> Result<()> {
+fn write_parts(film: &Film, options: &Options, out: &mut dyn Write) -> Result<()> {
     let channels = channels_of(film);
-    let headers = [header(film, &channels, comments)];
+    let headers = [header(film, &channels, options)];
     let head = head(&headers)?;
     let chunks = map_rows(film, |y| chunk(film, &channels, &headers, y));
     let chunks: Vec<Vec<u8>> = chunks.into_iter().collect::<Result<_>>()?;
@@ -80,8 +84,9 @@ fn channels_of(film: &Film) -> Vec<Channel> {
     channels
 }
 
-fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
+fn header(film: &Film, channels: &[Channel], options: &Options) -> Header {
     let size = Vec2(film.width as usize, film.height as usize);
+    let display = Vec2(film.display_width as usize, film.display_height as usize);
     let described = channels.iter().map(|channel| {
         let sample_type = match channel.precision {
             Precision::Half => SampleType::F16,
@@ -95,8 +100,9 @@ fn header(film: &Film, channels: &[Channel], comments: Option<&str>) -> Header {
             BlockDescription::ScanLines,
             LineOrder::Increasing,
         )
-        .with_shared_attributes(attributes::shared(size))
-        .with_attributes(attributes::own(comments))
+        .with_shared_attributes(attributes::shared(display, options))
+        .with_attributes(attributes::own(film, display, options))
+        .with_position(Vec2(film.left, film.top))
 }
 
 /// All that stands before the table of offsets.

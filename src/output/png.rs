@@ -72,7 +72,9 @@ fn line(film: &Film, options: &Options, y: usize) -> Vec<u8> {
     let beauty = film.layer(BEAUTY.channels);
     let pixels = beauty.map_or(&[][..], |beauty| row(film, beauty, y));
     let mut bytes = Vec::with_capacity(pixels.len() * 2);
-    let share = (y as f32 + 0.5) / film.height as f32;
+    // Of the whole picture's height: a crop's background is that of the whole.
+    let share = (film.top as f32 + y as f32 + 0.5) / film.display_height as f32;
+    let share = share.clamp(0.0, 1.0);
     let background = film.background;
     let behind = background
         .top

@@ -5,7 +5,7 @@ use super::painter::Pixels;
 use super::record::Record;
 use super::{Rendering, Settings};
 use crate::color::Rgb;
-use crate::film::{Film, Layer, Quantity};
+use crate::film::{Film, Layer, Quantity, Window};
 use crate::scene::Scene;
 use crate::whitted::Counts;
 
@@ -17,7 +17,8 @@ pub(super) struct Canvas {
 
 impl Canvas {
     pub(super) fn new(scene: &Scene, settings: &Settings) -> Canvas {
-        let pixels = settings.width as usize * settings.height as usize;
+        let window = settings.window;
+        let pixels = window.pixels() as usize;
         let blank = |layer: Layer| Layer {
             values: vec![0.0; pixels * layer.channels.len()],
             ..layer
@@ -25,6 +26,9 @@ impl Canvas {
         let list = settings.layers.list(scene.lights());
         let mut known = Known::default();
         if settings.is_adaptive() {
+            known.area = settings.area();
+            known.display = Window::whole(settings.width, settings.height);
+            let pixels = known.area.pixels() as usize;
             known.records = vec![Record::EMPTY; pixels];
             known.parts = vec![Rgb::BLACK; pixels * settings.layers.parts()];
             if settings.layers.cost {
@@ -33,8 +37,12 @@ impl Canvas {
         }
         Canvas {
             film: Film {
-                width: settings.width,
-                height: settings.height,
+                width: window.width,
+                height: window.height,
+                left: window.left,
+                top: window.top,
+                display_width: settings.width,
+                display_height: settings.height,
                 layers: list.into_iter().map(blank).collect(),
                 background: scene.background(),
                 complete: false,
@@ -44,15 +52,18 @@ impl Canvas {
         }
     }
 
-    /// Puts the records of some pixels, and what they cost where somebody wants to know, into the film.
+    /// Puts the records of some pixels, and what they cost where somebody wants to know, into the film, where they are
+    /// in its window.
     pub(super) fn put(&mut self, rendering: &Rendering, pixels: &Pixels) {
-        let width = self.film.width as usize;
+        let window = self.film.window();
         let of_pixel = rendering.settings.layers.parts();
         for layer in &mut self.film.layers {
             let channels = layer.channels.len();
-            for (number, ([i, j], record)) in pixels.places.iter().zip(&pixels.records).enumerate()
-            {
-                let start = (*j as usize * width + *i as usize) * channels;
+            for (number, (place, record)) in pixels.places.iter().zip(&pixels.records).enumerate() {
+                let Some(index) = window.index(*place) else {
+                    continue;
+                };
+                let start = index * channels;
                 let Some(values) = layer.values.get_mut(start..start + channels) else {
                     continue;
                 };
@@ -78,14 +89,17 @@ impl Canvas {
 
     /// Keeps what is known of them for a second pass.
     fn keep(&mut self, pixels: &Pixels, of_pixel: usize) {
-        let width = self.film.width as usize;
+        let area = self.known.area;
         let Known {
             records,
             counts,
             parts,
+            ..
         } = &mut self.known;
-        for (number, [i, j]) in pixels.places.iter().enumerate() {
-            let index = *j as usize * width + *i as usize;
+        for (number, place) in pixels.places.iter().enumerate() {
+            let Some(index) = area.index(*place) else {
+                continue;
+            };
             if let (Some(kept), Some(record)) = (records.get_mut(index), pixels.records.get(number))
             {
                 *kept = *record;

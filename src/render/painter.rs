@@ -1,9 +1,9 @@
 //! From tiles to samples, a batch of rays at a time.
 
+use super::Rendering;
 use super::known::Known;
 use super::record::Record;
 use super::tile::Tile;
-use super::{Rendering, Settings};
 use crate::color::Rgb;
 use crate::ray::Ray;
 use crate::sampling::BASE;
@@ -14,7 +14,7 @@ use std::time::Instant;
 #[derive(Debug, Default)]
 pub(super) struct Pixels {
     /// Column and row.
-    pub(super) places: Vec<[u32; 2]>,
+    pub(super) places: Vec<[i32; 2]>,
     pub(super) records: Vec<Record>,
     /// What their rays were tested against; empty unless somebody wants to know.
     pub(super) counts: Vec<Counts>,
@@ -82,12 +82,11 @@ impl<'a> Painter<'a> {
         let all = rendering.stops.first().copied().unwrap_or(0);
         for (number, offset) in (0..all).zip(&rendering.offsets) {
             self.columns.clear();
-            let columns = tile.left..tile.left + tile.width;
             self.columns
-                .extend(columns.map(|i| f64::from(i) + offset.x));
+                .extend(tile.columns().map(|i| f64::from(i) + offset.x));
             self.rows.clear();
-            let rows = tile.top..tile.top + tile.height;
-            self.rows.extend(rows.map(|j| f64::from(j) + offset.y));
+            self.rows
+                .extend(tile.rows().map(|j| f64::from(j) + offset.y));
             self.rays.clear();
             let view = &rendering.view;
             view.primary_rays(&self.columns, &self.rows, &mut self.rays);
@@ -179,19 +178,16 @@ impl<'a> Painter<'a> {
         counts.clear();
         parts.clear();
         let of_pixel = self.rendering.settings.layers.parts();
-        let Settings {
-            width,
-            height,
-            tile_side,
-            ..
-        } = *self.rendering.settings;
+        let tile_side = self.rendering.settings.tile_side;
         let (round, tolerance) = (self.rendering.round, self.rendering.tolerance);
-        for [i, j] in tile.tiles(tile_side).flat_map(Tile::pixels) {
-            if !known.needs_more([width, height], [i, j], round, tolerance) {
+        for place in tile.tiles(tile_side).flat_map(Tile::pixels) {
+            let Some(index) = known.area.index(place) else {
+                continue;
+            };
+            if !known.needs_more(place, round, tolerance) {
                 continue;
             }
-            let index = j as usize * width as usize + i as usize;
-            places.push([i, j]);
+            places.push(place);
             records.extend(known.records.get(index));
             counts.extend(known.counts.get(index));
             let known = known.parts.get(index * of_pixel..(index + 1) * of_pixel);

@@ -2,7 +2,7 @@
 
 use super::record::Record;
 use crate::color::Rgb;
-use crate::film::{Layers, Quantity};
+use crate::film::{Layers, Quantity, Window};
 use crate::sampling::{BASE, Grid, MAX_SAMPLES, Pattern, Sampling};
 use crate::scene::Scene;
 use crate::shade::Shading;
@@ -14,6 +14,7 @@ use crate::whitted::Counts;
 pub struct Settings {
     pub(super) width: u32,
     pub(super) height: u32,
+    pub(super) window: Window,
     pub(super) sampling: Sampling,
     pub(super) max_depth: u32,
     pub(super) shading: Shading,
@@ -47,6 +48,18 @@ pub enum SettingsError {
         /// What its film would take.
         bytes: u64,
     },
+    /// Further from the picture than a film may lie.
+    #[error(
+        "a window of {} x {} pixels from {},{} reaches too far from the picture; keep it within {MAX_PLACE} pixels",
+        window.width,
+        window.height,
+        window.left,
+        window.top
+    )]
+    TooFar {
+        /// As asked.
+        window: Window,
+    },
     /// No grid has that many samples.
     #[error("{samples} samples a pixel do not make a square grid; use {below} or {above}")]
     NotSquare {
@@ -73,6 +86,8 @@ pub enum SettingsError {
 
 /// The most memory a film may take.
 pub(super) const MAX_FILM_BYTES: u64 = 4 << 30;
+/// The furthest column and row, of either sign: as far as an EXR's windows reach.
+const MAX_PLACE: i32 = i32::MAX / 2;
 /// The most mirror bounces that can be asked for.
 pub(super) const MAX_DEPTH: u32 = 10_000;
 /// Tiles of this side are one batch of rays, large enough for packets of 64.
@@ -99,6 +114,7 @@ impl Settings {
         let settings = Settings {
             width,
             height,
+            window: Window::whole(width, height),
             sampling: Sampling::grid(1),
             max_depth,
             shading,
@@ -151,6 +167,27 @@ impl Settings {
         Ok(settings)
     }
 
+    /// Those pixels of the same picture that are in `window`, which may reach beyond it (overscan): each has the bits that
+    /// it has in any other window.
+    ///
+    /// # Errors
+    ///
+    /// No pixels, more than 4 GiB of them, or further than 1,073,741,823 columns or rows from the picture's first.
+    pub fn with_window(self, window: Window) -> Result<Settings, SettingsError> {
+        let Window { width, height, .. } = window;
+        if width == 0 || height == 0 {
+            return Err(SettingsError::NoPixels { width, height });
+        }
+        let furthest = i64::from(MAX_PLACE);
+        let is_near = window.left >= -MAX_PLACE && window.top >= -MAX_PLACE;
+        if !is_near || window.right() > furthest || window.bottom() > furthest {
+            return Err(SettingsError::TooFar { window });
+        }
+        let settings = Settings { window, ..self };
+        settings.check_bytes()?;
+        Ok(settings)
+    }
+
     /// The same picture, rendered in tiles of `side` pixels (at least 1): no pixel depends on it.
     pub fn with_tile_side(self, side: u32) -> Settings {
         Settings {
@@ -183,14 +220,27 @@ impl Settings {
             .filter(|layer| !matches!(layer.quantity, Quantity::Part(_)));
         let channels: usize = whole.map(|layer| layer.channels.len()).sum();
         let parts = self.layers.parts() * size_of::<Rgb>();
-        let mut bytes = channels * size_of::<f32>() + parts;
+        let film = channels * size_of::<f32>() + parts;
+        let mut known = 0;
         if self.is_adaptive() {
-            bytes += size_of::<Record>() + parts;
-            bytes += usize::from(self.layers.cost) * size_of::<Counts>();
+            known += size_of::<Record>() + parts;
+            known += usize::from(self.layers.cost) * size_of::<Counts>();
         }
-        u64::from(self.width)
-            .saturating_mul(u64::from(self.height))
-            .saturating_mul(bytes as u64)
+        let bytes =
+            |window: Window, of_pixel: usize| window.pixels().saturating_mul(of_pixel as u64);
+        bytes(self.window, film).saturating_add(bytes(self.area(), known))
+    }
+
+    /// The pixels that the first pass sees: those of the window, and where sampling is adaptive those around it, which
+    /// its pixels are compared with. Inside a picture they end with it.
+    pub(super) fn area(&self) -> Window {
+        let display = Window::whole(self.width, self.height);
+        let around = self.window.grown(u32::from(self.is_adaptive()));
+        if self.window.is_within(display) {
+            around.shared(display).unwrap_or(around)
+        } else {
+            around
+        }
     }
 
     /// Finds whether that is too much.
@@ -198,8 +248,8 @@ impl Settings {
         let bytes = self.film_bytes();
         if bytes > MAX_FILM_BYTES {
             return Err(SettingsError::TooLarge {
-                width: self.width,
-                height: self.height,
+                width: self.window.width,
+                height: self.window.height,
                 bytes,
             });
         }
@@ -211,12 +261,17 @@ impl Settings {
         self.sampling.adaptive && self.sampling.samples > BASE
     }
 
-    /// In pixels.
+    /// Which pixels of the picture are rendered.
+    pub fn window(&self) -> Window {
+        self.window
+    }
+
+    /// Of the whole picture, in pixels.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// In pixels.
+    /// Of the whole picture, in pixels.
     pub fn height(&self) -> u32 {
         self.height
     }
@@ -229,6 +284,16 @@ impl Settings {
     /// A pixel; the most, where sampling is adaptive.
     pub fn samples(&self) -> u32 {
         self.sampling.samples
+    }
+
+    /// How surfaces answer light.
+    pub fn shading(&self) -> Shading {
+        self.shading
+    }
+
+    /// Which part of a texture a ray shows.
+    pub fn texture_filter(&self) -> TextureFilter {
+        self.texture_filter
     }
 
     /// The samples of a pixel.

@@ -1,27 +1,36 @@
 //! What the frames of a sequence show: read once, and built again only where something moves.
 
 use super::super::arguments::RenderArguments;
+use super::super::outputs::Outputs;
+use super::super::provenance::{self, Input, Made};
 use super::super::summary::announce;
 use super::super::{Failure, layers, print, render};
 use super::FILMS;
 use luch::accel::{self, Accel};
 use luch::film::Film;
 use luch::load::{Asset, Choices, Viewpoint};
-use luch::output::Options;
+use luch::output::{Frame, Options};
 use luch::render::{Progress, Settings};
 use luch::scene::Scene;
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// An asset at one moment, and what it takes to go on to another.
 pub(super) struct World<'a> {
     arguments: &'a RenderArguments,
-    pub(super) asset: Asset,
+    asset: Asset,
     viewpoint: Viewpoint,
     /// As asked, before they are fitted to a scene.
     asked: Settings,
     accel_options: accel::Options,
     /// Of the first frame, for all of them.
     choices: Choices,
+    /// Every file that was read.
+    pub(super) read: Vec<PathBuf>,
+    /// The same for files that tell of them.
+    inputs: Vec<Input>,
+    /// The moment that files name.
+    captured: Option<u64>,
     /// What was said of frames.
     said: Vec<String>,
     /// `None` only while the next one is made.
@@ -41,8 +50,12 @@ struct Shown {
 
 impl<'a> World<'a> {
     /// Reads the input; the stage is set as frame 1 needs it.
-    pub(super) fn open(arguments: &'a RenderArguments) -> Result<World<'a>, Failure> {
+    pub(super) fn open(
+        arguments: &'a RenderArguments,
+        first: &Outputs,
+    ) -> Result<World<'a>, Failure> {
         let start = Instant::now();
+        let captured = arguments.provenance.captured()?;
         let accel_options = render::accel_options(arguments)?;
         let name = render::name(arguments);
         // Nothing of the one is needed for the other.
@@ -51,7 +64,7 @@ impl<'a> World<'a> {
             || arguments.environment.beside(name),
         );
         let (mut asset, (surrounding, _)) = (asset?, beside?);
-        let asked = render::settings(arguments, &asset)?;
+        let asked = arguments.window.of(render::settings(arguments, &asset)?)?;
         let mut viewpoint = Viewpoint {
             environment: surrounding,
             ..render::viewpoint(arguments, &asked)?
@@ -68,6 +81,12 @@ impl<'a> World<'a> {
         let (scene, choices) = scene.map_err(Failure::usage_or_scene)?;
         viewpoint.stage = choices.stage.clone();
         viewpoint.exposure = Some(choices.exposure);
+        let read: Vec<PathBuf> = asset.files.iter().chain(&choices.files).cloned().collect();
+        first.spare(&read)?;
+        let inputs = match first.tell_of_inputs() {
+            true => render::inputs(arguments, &read)?,
+            false => Vec::new(),
+        };
         announce(arguments, &asset, &choices);
         let mut world = World {
             arguments,
@@ -75,6 +94,9 @@ impl<'a> World<'a> {
             viewpoint,
             asked,
             accel_options,
+            read,
+            inputs,
+            captured,
             said: choices.lines.clone(),
             choices,
             shown: None,
@@ -150,15 +172,20 @@ impl<'a> World<'a> {
 
     /// The picture of the frame that it was brought to.
     pub(super) fn render(&self, progress: &Progress) -> Result<Film, Failure> {
-        let shown = self.shown.as_ref();
-        let ready = shown.and_then(|shown| Some((shown, shown.accel.as_ref()?)));
-        let (shown, accel) = ready.ok_or_else(|| Failure::render("no scene is ready"))?;
+        let (shown, accel) = self.ready()?;
         Ok(luch::render::render(
             &shown.scene,
             accel,
             &shown.settings,
             progress,
         ))
+    }
+
+    /// The scene and its tree, once a frame was gone to.
+    fn ready(&self) -> Result<(&Shown, &Accel), Failure> {
+        let shown = self.shown.as_ref();
+        let ready = shown.and_then(|shown| Some((shown, shown.accel.as_ref()?)));
+        ready.ok_or_else(|| Failure::render("no scene is ready"))
     }
 
     /// What the tree's build took, in seconds.
@@ -168,8 +195,30 @@ impl<'a> World<'a> {
     }
 
     /// How a frame becomes a file.
-    pub(super) fn output_options(&self) -> Options {
-        render::output_options(self.arguments, &self.asset, &self.choices)
+    pub(super) fn output_options(&self, frame: u32, film: &Film) -> Result<Options, Failure> {
+        let (shown, accel) = self.ready()?;
+        let made = Made {
+            arguments: &self.arguments.provenance,
+            captured: self.captured,
+            inputs: &self.inputs,
+            scene: &shown.scene,
+            accel,
+            settings: &shown.settings,
+            film,
+        };
+        let mut header = provenance::header(&made);
+        header.frame = Some(Frame {
+            // At most a million.
+            number: frame as i32,
+            per_second: self.arguments.sequence.per_second(),
+        });
+        let choices = &self.choices;
+        Ok(render::output_options(
+            self.arguments,
+            &self.asset,
+            choices,
+            header,
+        ))
     }
 
     /// Says what was not said of another frame: nothing is left out in silence.

@@ -3,7 +3,7 @@
 use super::{Choices, Surrounding, Viewpoint};
 use crate::Error;
 use crate::environment::Surroundings;
-use crate::load::environment::EnvironmentChoice;
+use crate::load::environment::{EnvironmentChoice, EnvironmentLight};
 use crate::load::{Asset, Warnings};
 use std::sync::Arc;
 
@@ -13,6 +13,9 @@ pub(in crate::load) fn environment(
     viewpoint: &Viewpoint,
     choices: &mut Choices,
 ) -> Result<Option<Arc<Surroundings>>, Error> {
+    if let Some(stage) = &viewpoint.stage {
+        return Ok(stage.environment.clone());
+    }
     let asked = match &viewpoint.environment {
         Surrounding::Ready(environment) => return Ok(environment.clone()),
         Surrounding::Asked(choice) => choice.or(&asset.environment),
@@ -22,6 +25,9 @@ pub(in crate::load) fn environment(
     } else {
         asked.or(&EnvironmentChoice::of_models())
     };
+    if let Some(EnvironmentLight::File(path)) = &choice.light {
+        choices.files.push(path.clone());
+    }
     let mut warnings = Warnings::default();
     let environment = choice.surroundings(&asset.budget, &mut warnings)?;
     let lines = warnings.iter().map(ToString::to_string);

@@ -1,5 +1,8 @@
 //! What an EXR says of itself beside its pixels.
 
+use super::{camera, facts, moment};
+use crate::film::Film;
+use crate::output::Options;
 use exr::math::Vec2;
 use exr::meta::attribute::{AttributeValue, Chromaticities, IntegerBounds, Text};
 use exr::meta::header::{ImageAttributes, LayerAttributes};
@@ -13,23 +16,30 @@ const REC_709: Chromaticities = Chromaticities {
 };
 
 /// What would be the same for every part of a file.
-pub(super) fn shared(size: Vec2<usize>) -> ImageAttributes {
+pub(super) fn shared(display: Vec2<usize>, options: &Options) -> ImageAttributes {
     ImageAttributes {
         chromaticities: Some(REC_709),
-        ..ImageAttributes::new(IntegerBounds::from_dimensions(size))
+        time_code: options.header.frame.and_then(moment::time_code),
+        ..ImageAttributes::new(IntegerBounds::from_dimensions(display))
     }
 }
 
-/// The others.
-pub(super) fn own(comments: Option<&str>) -> LayerAttributes {
+/// The others; the display window is of `size`.
+pub(super) fn own(film: &Film, size: Vec2<usize>, options: &Options) -> LayerAttributes {
     let mut attributes = LayerAttributes {
         software_name: Some(text(concat!("luch ", env!("CARGO_PKG_VERSION")))),
-        comments: comments.map(text),
+        owner: Some(text(&options.header.owner)),
+        comments: options.comments.as_deref().map(text),
         ..LayerAttributes::default()
     };
     // The Color Interop Forum's name for linear Rec. 709 light that refers to a scene.
     let color = AttributeValue::Text(text("lin_rec709_scene"));
     attributes.other.insert(text("colorInteropID"), color);
+    if let Some(of) = &options.header.camera {
+        camera::describe(of, size, &mut attributes);
+    }
+    moment::describe(&options.header, &mut attributes);
+    facts::describe(film, &options.header, &mut attributes);
     attributes
 }
 
