@@ -1,5 +1,6 @@
 //! The program as its users meet it: what it prints, what it leaves on the disk, and how it ends.
 
+mod farm;
 mod files;
 mod help;
 mod info;

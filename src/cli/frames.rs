@@ -3,7 +3,6 @@
 use super::values::whole_number;
 use super::{Failure, print};
 use clap::Args;
-use luch::output::Frame;
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -68,13 +67,10 @@ impl SequenceArguments {
         self.fps.unwrap_or_default().time(frame)
     }
 
-    /// Where in the sequence a frame stands.
-    pub(super) fn place(&self, frame: u32) -> Frame {
+    /// So many frames in so many seconds, where time goes on.
+    pub(super) fn per_second(&self) -> Option<[u32; 2]> {
         let Rate { frames, seconds } = self.fps.unwrap_or_default();
-        Frame {
-            number: i32::try_from(frame).unwrap_or(i32::MAX),
-            per_second: self.is_of_an_animation().then_some([frames, seconds]),
-        }
+        self.is_of_an_animation().then_some([frames, seconds])
     }
 
     /// How far around a frame's view is, in radians.

@@ -83,7 +83,7 @@ pub(super) fn run(
     };
     let state = || sequence.state();
     progress::shown(Listener::of(arguments), &state, || {
-        let mut world = pool.install(|| World::open(arguments, first.outputs.tell_of_inputs()))?;
+        let mut world = pool.install(|| World::open(arguments, &first.outputs))?;
         summary.opened(&world);
         sequence.render(&mut world, first, pool, &mut summary)
     })?;
@@ -166,7 +166,7 @@ impl Sequence<'_> {
     ) -> Result<(), Failure> {
         let mut next = Some(first);
         while let Some(job) = next {
-            job.outputs.spare(&world.asset.files)?;
+            job.outputs.spare(&world.read)?;
             let (frame, after) = (job.frame, job.index + 1);
             let Some(progress) = self.begin(&job) else {
                 return Ok(());
@@ -177,11 +177,10 @@ impl Sequence<'_> {
                 return Err(Failure::render(format!("frame {frame}: was cancelled")));
             }
             summary.rendered(&film, world, is_tree_kept);
-            let options = world.output_options(frame, &film)?;
             let rendered = Rendered {
+                options: world.output_options(frame, &film)?,
                 job,
                 film,
-                options,
                 is_tree_kept,
             };
             if films.send(rendered).is_err() {

@@ -179,14 +179,14 @@ impl Asset {
         viewpoint::light(
             self,
             viewpoint,
-            environment,
+            environment.clone(),
             &framed,
             &mut scene,
             &mut choices,
         );
         scene.ground = viewpoint::ground(self, viewpoint, &framed);
         scene.background = viewpoint::background(self, viewpoint, &mut choices);
-        choices.stage = Some(Stage::of(framed));
+        choices.stage = Some(Stage::of(framed, environment));
         let in_file = |problem| Error::Scene {
             file: self.file.clone(),
             problem,

@@ -51,15 +51,20 @@ pub struct Viewpoint {
     pub stage: Option<Stage>,
 }
 
-/// What is fitted to an asset at one moment: a framed camera, the floor, the lamp of a room.
-#[derive(Clone, Debug, PartialEq)]
+/// What is fitted to an asset at one moment, and made ready for it: a framed camera, the floor, the lamp of a room, the
+/// environment.
+#[derive(Clone, Debug)]
 pub struct Stage {
     framed: Framed,
+    environment: Option<Arc<Surroundings>>,
 }
 
 impl Stage {
-    pub(in crate::load) fn of(framed: Framed) -> Stage {
-        Stage { framed }
+    pub(in crate::load) fn of(framed: Framed, environment: Option<Arc<Surroundings>>) -> Stage {
+        Stage {
+            framed,
+            environment,
+        }
     }
 
     /// The camera.
@@ -124,7 +129,7 @@ pub enum GroundChoice {
 }
 
 /// A camera, and what is known of the place that it looks at.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(in crate::load) struct Framed {
     /// The camera itself.
     pub(in crate::load) camera: Camera,
@@ -150,17 +155,17 @@ pub enum CameraChoice {
 }
 
 /// What was chosen where neither the file nor the user said.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Choices {
     /// A line each, for the user.
     pub lines: Vec<String>,
     /// Stops by which a display should change the picture: those asked for or, where a model has lights of its own, in
     /// candela or lux, those with which they neither wash the picture out nor leave it dark.
     pub exposure: f32,
-    /// The files that were read for it, beside the asset's own.
-    pub files: Vec<PathBuf>,
     /// What was fitted to the asset, or kept.
     pub stage: Option<Stage>,
+    /// The files that were read for it, beside the asset's own.
+    pub files: Vec<PathBuf>,
 }
 
 /// What lies behind models on a display, in sRGB .87 at the bottom and .70 at the top: dark things stand out from it, and

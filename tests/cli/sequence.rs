@@ -73,7 +73,9 @@ fn a_frame_is_the_still_picture_of_its_moment() {
     }
     assert_ne!(folder.read("f.01.png"), folder.read("f.13.png"));
     assert_eq!(folder.read("f.37.png"), folder.read("f.13.png"));
-    assert!(folder.read("f_003.exr").starts_with(EXR));
+    let exr = folder.read("f_003.exr");
+    assert!(exr.starts_with(EXR) && exr.windows(12).any(|name| name == b"imageCounter"));
+    assert!(exr.windows(15).any(|name| name == b"framesPerSecond"));
     assert!(
         ran.out()
             .contains("frame 13: wrote f.13.png, f_013.exr (search tree built)")

@@ -1,6 +1,7 @@
 //! What the frames of a sequence show: read once, and built again only where something moves.
 
 use super::super::arguments::RenderArguments;
+use super::super::outputs::Outputs;
 use super::super::provenance::{self, Input, Made};
 use super::super::summary::announce;
 use super::super::{Failure, layers, print, render};
@@ -8,7 +9,7 @@ use super::FILMS;
 use luch::accel::{self, Accel};
 use luch::film::Film;
 use luch::load::{Asset, Choices, Viewpoint};
-use luch::output::{Header, Options};
+use luch::output::{Frame, Options};
 use luch::render::{Progress, Settings};
 use luch::scene::Scene;
 use std::path::PathBuf;
@@ -17,16 +18,18 @@ use std::time::{Duration, Instant};
 /// An asset at one moment, and what it takes to go on to another.
 pub(super) struct World<'a> {
     arguments: &'a RenderArguments,
-    pub(super) asset: Asset,
+    asset: Asset,
     viewpoint: Viewpoint,
     /// As asked, before they are fitted to a scene.
     asked: Settings,
     accel_options: accel::Options,
     /// Of the first frame, for all of them.
     choices: Choices,
-    /// What was read, where a file tells.
+    /// Every file that was read.
+    pub(super) read: Vec<PathBuf>,
+    /// The same for files that tell of them.
     inputs: Vec<Input>,
-    /// When the pictures are made, where files say so.
+    /// The moment that files name.
     captured: Option<u64>,
     /// What was said of frames.
     said: Vec<String>,
@@ -46,9 +49,13 @@ struct Shown {
 }
 
 impl<'a> World<'a> {
-    /// Reads the input; the stage is set as frame 1 needs it. `tells` says whether pictures will tell what was read.
-    pub(super) fn open(arguments: &'a RenderArguments, tells: bool) -> Result<World<'a>, Failure> {
+    /// Reads the input; the stage is set as frame 1 needs it.
+    pub(super) fn open(
+        arguments: &'a RenderArguments,
+        first: &Outputs,
+    ) -> Result<World<'a>, Failure> {
         let start = Instant::now();
+        let captured = arguments.provenance.captured()?;
         let accel_options = render::accel_options(arguments)?;
         let name = render::name(arguments);
         // Nothing of the one is needed for the other.
@@ -74,20 +81,22 @@ impl<'a> World<'a> {
         let (scene, choices) = scene.map_err(Failure::usage_or_scene)?;
         viewpoint.stage = choices.stage.clone();
         viewpoint.exposure = Some(choices.exposure);
-        announce(arguments, &asset, &choices);
         let read: Vec<PathBuf> = asset.files.iter().chain(&choices.files).cloned().collect();
-        let inputs = match tells {
+        first.spare(&read)?;
+        let inputs = match first.tell_of_inputs() {
             true => render::inputs(arguments, &read)?,
             false => Vec::new(),
         };
+        announce(arguments, &asset, &choices);
         let mut world = World {
             arguments,
             asset,
             viewpoint,
             asked,
             accel_options,
+            read,
             inputs,
-            captured: arguments.provenance.captured()?,
+            captured,
             said: choices.lines.clone(),
             choices,
             shown: None,
@@ -172,16 +181,23 @@ impl<'a> World<'a> {
         ))
     }
 
+    /// The scene and its tree, once a frame was gone to.
+    fn ready(&self) -> Result<(&Shown, &Accel), Failure> {
+        let shown = self.shown.as_ref();
+        let ready = shown.and_then(|shown| Some((shown, shown.accel.as_ref()?)));
+        ready.ok_or_else(|| Failure::render("no scene is ready"))
+    }
+
     /// What the tree's build took, in seconds.
     pub(super) fn build_seconds(&self) -> f64 {
         let accel = self.shown.as_ref().and_then(|shown| shown.accel.as_ref());
         accel.map_or(0.0, |accel| accel.statistics().build_time.as_secs_f64())
     }
 
-    /// How the picture of the frame that it was brought to becomes a file.
+    /// How a frame becomes a file.
     pub(super) fn output_options(&self, frame: u32, film: &Film) -> Result<Options, Failure> {
         let (shown, accel) = self.ready()?;
-        let header = provenance::header(&Made {
+        let made = Made {
             arguments: &self.arguments.provenance,
             captured: self.captured,
             inputs: &self.inputs,
@@ -189,24 +205,20 @@ impl<'a> World<'a> {
             accel,
             settings: &shown.settings,
             film,
-        });
-        let header = Header {
-            frame: Some(self.arguments.sequence.place(frame)),
-            ..header
         };
-        let (asset, choices) = (&self.asset, &self.choices);
+        let mut header = provenance::header(&made);
+        header.frame = Some(Frame {
+            // At most a million.
+            number: frame as i32,
+            per_second: self.arguments.sequence.per_second(),
+        });
+        let choices = &self.choices;
         Ok(render::output_options(
             self.arguments,
-            asset,
+            &self.asset,
             choices,
             header,
         ))
-    }
-
-    fn ready(&self) -> Result<(&Shown, &Accel), Failure> {
-        let shown = self.shown.as_ref();
-        let ready = shown.and_then(|shown| Some((shown, shown.accel.as_ref()?)));
-        ready.ok_or_else(|| Failure::render("no scene is ready"))
     }
 
     /// Says what was not said of another frame: nothing is left out in silence.

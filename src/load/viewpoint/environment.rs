@@ -13,6 +13,9 @@ pub(in crate::load) fn environment(
     viewpoint: &Viewpoint,
     choices: &mut Choices,
 ) -> Result<Option<Arc<Surroundings>>, Error> {
+    if let Some(stage) = &viewpoint.stage {
+        return Ok(stage.environment.clone());
+    }
     let asked = match &viewpoint.environment {
         Surrounding::Ready(environment) => return Ok(environment.clone()),
         Surrounding::Asked(choice) => choice.or(&asset.environment),
