@@ -91,6 +91,8 @@ const LEVELS: [(f32, u32, u32); 7] = [
     // The cosine has an edge at the horizon, which asks for more pixels than it leaves.
     (1.0, 64, 128),
 ];
+/// Pixels across of the largest octahedral picture: the finest lobe is wider than four of them.
+const MOST_ACROSS: u32 = 384;
 /// Of the picture that the finest lobe is put over: a pixel is smaller than that lobe.
 const FINEST: u32 = 512;
 /// Columns of the picture that is cut into lights.
@@ -107,8 +109,8 @@ impl Surroundings {
         let filtered = |&(alpha, width, source): &(f32, u32, u32)| {
             let lobe = Lobe::of_alpha(alpha.into());
             let seen = Level::new(prefiltered(&of_width(source), width, &lobe));
-            // About as many pixels, all of about one size.
-            Octahedral::of(width / 4 * 3, |d| seen.at(position(d)))
+            // Twice as fine: what was interpolated once is not to be blurred again.
+            Octahedral::of((2 * width).min(MOST_ACROSS), |d| seen.at(position(d)))
         };
         let (mut parts, rough) = rayon::join(
             || median_cut::lights(&of_width(CUT), environment.lights.clamp(1, MAX_LIGHTS)),

@@ -133,6 +133,14 @@ pub struct Offset {
     pub weight: f32,
 }
 
+impl Offset {
+    /// Whether it is in the pixel's own square, not in a neighbour's.
+    pub fn is_inside(&self) -> bool {
+        let inside = 0.0..1.0;
+        inside.contains(&self.x) && inside.contains(&self.y)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -105,6 +105,31 @@ fn scene(description: SceneDescription) -> Scene {
 }
 
 #[test]
+fn what_a_pixel_says_of_surfaces_is_of_its_own_square_however_far_its_filter_reaches() {
+    let mut of = before([8.0, 6.0]);
+    of.planes.push(Object {
+        name: "slope".into(),
+        shape: Plane {
+            point: Vec3::ZERO,
+            // Nearer to the right: every neighbour there has nearer samples.
+            normal: Vec3::new(-0.6, 0.0, 0.8),
+        },
+        material: 0,
+    });
+    let film = picture(
+        &scene(of),
+        &settings([8, 6], adaptive(Filter::BlackmanHarris)),
+    );
+    for (pixel, [x, y, z]) in layer::<3>(&film, "P").iter().enumerate() {
+        let [column, row] = [pixel % 8, pixel / 8].map(|at| at as f32);
+        assert!((column..=column + 1.0).contains(&(x + 4.0)), "{pixel}: {x}");
+        assert!((row..=row + 1.0).contains(&(3.0 - y)), "{pixel}: {y}");
+        let depth = layer::<1>(&film, "")[pixel][0];
+        assert!((10.0 - z - depth).abs() < 1e-5, "{pixel}: {z} {depth}");
+    }
+}
+
+#[test]
 fn a_sphere_has_its_points_and_normals() {
     let mut of = before([2.0, 2.0]);
     of.spheres.push(Object {

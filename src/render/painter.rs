@@ -8,7 +8,7 @@ use super::tile::Tile;
 use crate::color::Rgb;
 use crate::film::Layers;
 use crate::ray::Ray;
-use crate::sampling::BASE;
+use crate::sampling::{BASE, Offset};
 use crate::whitted::{Counts, First, Parts, Rules, Sample, Tracer};
 use std::time::Instant;
 
@@ -49,21 +49,21 @@ impl Pixels {
         &mut self,
         tracer: &Tracer,
         samples: &[Sample],
-        weight: f32,
+        offset: &Offset,
         pixel_of: impl Fn(usize) -> usize,
     ) {
         let firsts = tracer.firsts.iter().flatten();
         for (index, (first, sample)) in firsts.zip(samples).enumerate() {
             let pixel = pixel_of(index);
             let known = self.records.get(pixel);
-            let is_nearer = known.is_none_or(|known| sample.depth < known.depth);
-            if let (true, Some(nearest)) = (is_nearer, self.firsts.get_mut(pixel)) {
+            let is_passed = known.is_none_or(|known| known.is_passed_by(sample, offset));
+            if let (true, Some(nearest)) = (is_passed, self.firsts.get_mut(pixel)) {
                 *nearest = Some(*first);
             }
         }
         for share in tracer.shares.iter().flatten() {
             if let Some(shares) = self.shares.get_mut(pixel_of(share.sample as usize)) {
-                shares.add(share, weight);
+                shares.add(share, offset.weight);
             }
         }
     }
@@ -146,9 +146,9 @@ impl<'a> Painter<'a> {
             view.primary_rays(&self.columns, &self.rows, &mut self.rays);
             self.trace(number);
             let (pixels, samples) = (&mut self.pixels, &self.samples);
-            pixels.add_seen(&self.tracer, samples, offset.weight, |index| index);
+            pixels.add_seen(&self.tracer, samples, offset, |index| index);
             for (record, sample) in self.pixels.records.iter_mut().zip(&self.samples) {
-                record.add(sample, offset.weight);
+                record.add(sample, offset);
                 if rendering.is_adaptive {
                     record.compare(sample, rendering.round);
                 }
@@ -201,10 +201,10 @@ impl<'a> Painter<'a> {
                 self.trace(number);
                 let (pixels, samples) = (&mut self.pixels, &self.samples);
                 let pixel_of = |index: usize| self.active.get(index).map_or(usize::MAX, |at| *at);
-                pixels.add_seen(&self.tracer, samples, offset.weight, pixel_of);
+                pixels.add_seen(&self.tracer, samples, offset, pixel_of);
                 for (&index, sample) in self.active.iter().zip(&self.samples) {
                     let record = &mut self.pixels.records[index];
-                    record.add(sample, offset.weight);
+                    record.add(sample, offset);
                     record.compare(sample, rendering.round);
                 }
                 let parts = self.tracer.parts.iter().flat_map(Parts::of_samples);

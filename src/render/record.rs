@@ -1,7 +1,7 @@
 //! What is known of a pixel after some of its samples.
 
 use crate::color::Rgb;
-use crate::sampling::{BASE, Filter};
+use crate::sampling::{BASE, Filter, Offset};
 use crate::whitted::{NO_OBJECT, Sample};
 use glam::Vec3;
 
@@ -11,8 +11,10 @@ pub(super) struct Record {
     /// Sums, each sample by its weight.
     color: Rgb,
     alpha: f32,
-    /// The nearest.
+    /// The nearest: of the samples in the pixel's own square, or of all while there is none.
     pub(super) depth: f32,
+    /// Whether there is such a sample.
+    is_inside: bool,
     pub(super) samples: u32,
     /// Of the samples since the last that were compared, colour and alpha.
     round: [f32; 4],
@@ -35,6 +37,7 @@ impl Record {
         color: Rgb::BLACK,
         alpha: 0.0,
         depth: f32::INFINITY,
+        is_inside: false,
         samples: 0,
         round: [0.0; 4],
         least: [u8::MAX; 4],
@@ -45,11 +48,22 @@ impl Record {
     };
 
     /// Light is summed (and becomes a mean), depth is the nearest.
-    pub(super) fn add(&mut self, sample: &Sample, weight: f32) {
-        self.color += sample.color * weight;
-        self.alpha += sample.alpha * weight;
-        self.depth = self.depth.min(sample.depth);
+    pub(super) fn add(&mut self, sample: &Sample, offset: &Offset) {
+        self.color += sample.color * offset.weight;
+        self.alpha += sample.alpha * offset.weight;
+        if self.is_passed_by(sample, offset) {
+            (self.depth, self.is_inside) = (sample.depth, offset.is_inside());
+        }
         self.samples += 1;
+    }
+
+    /// Whether a sample becomes the nearest. Filters reach into neighbours, whose surfaces are not this pixel's.
+    pub(super) fn is_passed_by(&self, sample: &Sample, offset: &Offset) -> bool {
+        match (offset.is_inside(), self.is_inside) {
+            (true, false) => true,
+            (false, true) => false,
+            _ => sample.depth < self.depth,
+        }
     }
 
     /// Takes note of how a sample differs from those before; `add` comes first. Light is compared by rounds of so many

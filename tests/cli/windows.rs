@@ -86,7 +86,7 @@ fn a_window_that_cannot_be_is_told_what_can() {
         ),
         (
             &["--overscan", "100000"],
-            "a picture of 200008 x 200008 pixels needs 800064 MB of memory, more than the 4294 MB allowed; make it smaller",
+            "a picture of 200008 x 200008 pixels needs 5600448 MB of memory, more than the 4294 MB allowed; make it smaller",
         ),
         (
             &["--tile", "5/4"],
