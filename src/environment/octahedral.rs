@@ -116,8 +116,9 @@ mod tests {
         let picture = Octahedral::of(64, light);
         for d in directions() {
             let (found, right) = (picture.at(d), light(d));
+            // Where faces meet the light has a crease, which is cut by up to half a pixel: 1/64 here.
             let off = [found.r - right.r, found.g - right.g, found.b - right.b];
-            assert!(off.iter().all(|off| off.abs() < 0.012), "{d} {off:?}");
+            assert!(off.iter().all(|off| off.abs() < 0.02), "{d} {off:?}");
         }
     }
 
