@@ -87,21 +87,26 @@ impl Record {
         self.torn |= self.object != sample.object || !same_side(self.normal, normal);
     }
 
-    /// Whether one round of samples more, like one of those that the pixel has, could change it by more than `tolerance` of
-    /// the 256 steps that can be seen; and where few samples see several things, whatever their light.
+    /// Whether one round of samples more and half another, like those that the pixel has, could change it by more than
+    /// `tolerance` of the 256 steps that can be seen; and where few samples see several things, whatever their light.
     pub(super) fn needs_more(&self, round: u32, tolerance: u32) -> bool {
         let rounds = self.samples / round;
-        self.torn && self.samples <= BASE || differ(&self.least, &self.greatest, rounds * tolerance)
+        self.torn && self.samples <= BASE
+            || differ(
+                &self.least,
+                &self.greatest,
+                (rounds * tolerance * 2).div_ceil(3),
+            )
     }
 
-    /// Whether something ends between this pixel and another: objects, sides, or light differ. Light by half as much as
-    /// among the samples themselves: what ends is seen by less than all of them.
+    /// Whether something ends between this pixel and another: objects, sides, or light differ. Light by three quarters of what
+    /// counts for a round among the samples themselves: what ends is seen by less than all of them.
     pub(super) fn differs_from(&self, other: &Record, tolerance: u32) -> bool {
         let least = std::array::from_fn(|i| self.least[i].min(other.least[i]));
         let greatest = std::array::from_fn(|i| self.greatest[i].max(other.greatest[i]));
         self.object != other.object
             || !same_side(self.normal, other.normal)
-            || differ(&least, &greatest, self.samples * tolerance / 2)
+            || differ(&least, &greatest, self.samples * tolerance * 3 / 4)
     }
 
     /// The mean colour, premultiplied, and alpha, where the filter's weights of the samples add to `weight`.
