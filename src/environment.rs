@@ -68,15 +68,43 @@ pub struct DistantLight {
 /// An environment made ready.
 #[derive(Clone, Debug)]
 pub struct Surroundings {
-    /// As it is.
+    /// As it is, in the space of the picture.
     sharp: Arc<Level>,
-    /// As seen through ever wider lobes, of the roughnesses squared in [`LEVELS`].
+    /// As seen through ever wider lobes, of the roughnesses squared in [`LEVELS`]; in the world's space.
     rough: Arc<[Octahedral]>,
     /// For each number of rounds the lights of each round.
     rounds: Arc<[Vec<Vec<DistantLight>>]>,
-    /// Cosine and sine of the angle that it is turned.
-    turn: (f32, f32),
+    turn: Turn,
     intensity: f32,
+}
+
+/// How a picture stands in the world: cosine and sine of the angle that it is turned about +Y.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    cos: f32,
+    sin: f32,
+}
+
+impl Turn {
+    /// By an angle in radians.
+    fn by(angle: f32) -> Turn {
+        Turn {
+            cos: libm::cosf(angle),
+            sin: libm::sinf(angle),
+        }
+    }
+
+    /// A direction of the world in the picture.
+    fn to_picture(self, d: Vec3) -> Vec3 {
+        let Turn { cos, sin } = self;
+        Vec3::new(cos * d.x - sin * d.z, d.y, sin * d.x + cos * d.z)
+    }
+
+    /// A direction of the picture in the world.
+    fn to_world(self, d: Vec3) -> Vec3 {
+        let Turn { cos, sin } = self;
+        Vec3::new(cos * d.x + sin * d.z, d.y, cos * d.z - sin * d.x)
+    }
 }
 
 /// Roughness squared of each lobe, how many columns the picture that is seen through it has, and of how many it is made.
@@ -104,47 +132,43 @@ impl Surroundings {
     /// Numbers that make no sense count as zero, in the picture as in what is asked of it.
     pub fn new(environment: &Environment) -> Surroundings {
         let picture = environment.radiance.sound();
+        let finite = |value: f32| if value.is_finite() { value } else { 0.0 };
+        let intensity = finite(environment.intensity).max(0.0);
+        let turn = Turn::by(finite(environment.rotation));
         let fine = picture.resized(FINEST, FINEST / 2);
         let of_width = |width: u32| fine.resized(width, width / 2);
         let filtered = |&(alpha, width, source): &(f32, u32, u32)| {
             let lobe = Lobe::of_alpha(alpha.into());
             let seen = Level::new(prefiltered(&of_width(source), width, &lobe));
             // Twice as fine: what was interpolated once is not to be blurred again.
-            Octahedral::of((2 * width).min(MOST_ACROSS), |d| seen.at(position(d)))
+            let side = (2 * width).min(MOST_ACROSS);
+            Octahedral::of(side, |d| seen.at(position(turn.to_picture(d))))
         };
         let (mut parts, rough) = rayon::join(
             || median_cut::lights(&of_width(CUT), environment.lights.clamp(1, MAX_LIGHTS)),
             || LEVELS.par_iter().map(filtered).collect::<Vec<_>>(),
         );
-        let finite = |value: f32| if value.is_finite() { value } else { 0.0 };
-        let (intensity, rotation) = (
-            finite(environment.intensity).max(0.0),
-            finite(environment.rotation),
-        );
-        let mut surroundings = Surroundings {
-            sharp: Arc::new(Level::new(picture)),
-            rough: Arc::from(rough),
-            rounds: Arc::from([]),
-            turn: (libm::cosf(rotation), libm::sinf(rotation)),
-            intensity,
-        };
         for part in &mut parts {
-            part.light.to_light = surroundings.to_world(part.light.to_light);
+            part.light.to_light = turn.to_world(part.light.to_light);
             part.light.irradiance *= intensity;
         }
-        surroundings.rounds = (1..=MAX_ROUNDS)
-            .map(|rounds| dealt(&parts, rounds))
-            .collect();
-        surroundings
+        Surroundings {
+            sharp: Arc::new(Level::new(picture)),
+            rough: Arc::from(rough),
+            rounds: (1..=MAX_ROUNDS)
+                .map(|rounds| dealt(&parts, rounds))
+                .collect(),
+            turn,
+            intensity,
+        }
     }
 
     /// The radiance that comes from the unit direction `d`, seen in a mirror of perceptual `roughness`: 0 shows it sharp, 1
     /// as a matt surface does. Continuous in both.
     pub fn radiance(&self, d: Vec3, roughness: f32) -> Rgb {
         let alpha = roughness.clamp(0.0, 1.0) * roughness.clamp(0.0, 1.0);
-        let d = self.to_picture(d);
         let level = |index: usize| match index.checked_sub(1) {
-            None => self.sharp.at(position(d)),
+            None => self.sharp.at(position(self.turn.to_picture(d))),
             Some(index) => self.rough(index, d),
         };
         let mut below = 0.0;
@@ -166,10 +190,10 @@ impl Surroundings {
 
     /// What a white matt surface of unit normal `n` shows of all of it where nothing is in the way: irradiance over π.
     pub fn irradiance(&self, n: Vec3) -> Rgb {
-        self.rough(LEVELS.len() - 1, self.to_picture(n)) * self.intensity
+        self.rough(LEVELS.len() - 1, n) * self.intensity
     }
 
-    /// As seen through one of the lobes, in the space of the picture.
+    /// As seen through one of the lobes.
     fn rough(&self, lobe: usize, d: Vec3) -> Rgb {
         self.rough.get(lobe).map_or(Rgb::BLACK, |seen| seen.at(d))
     }
@@ -201,18 +225,6 @@ impl Surroundings {
             intensity: self.intensity * share,
             ..self.clone()
         }
-    }
-
-    /// A direction of the world in the picture.
-    fn to_picture(&self, d: Vec3) -> Vec3 {
-        let (cos, sin) = self.turn;
-        Vec3::new(cos * d.x - sin * d.z, d.y, sin * d.x + cos * d.z)
-    }
-
-    /// A direction of the picture in the world.
-    fn to_world(&self, d: Vec3) -> Vec3 {
-        let (cos, sin) = self.turn;
-        Vec3::new(cos * d.x + sin * d.z, d.y, cos * d.z - sin * d.x)
     }
 }
 
