@@ -20,10 +20,11 @@ pub(super) fn exit_code() -> u8 {
 /// From now on calls `ended` at each signal that asks the program to end, on a thread of its own.
 ///
 /// Where the system refuses, signals still end the program; only temporary files would stay.
-fn at_each_signal(mut ended: impl FnMut() + Send + 'static) {
+fn at_each_signal(ended: impl FnMut() + Send + 'static) {
     #[cfg(unix)]
     {
         use signal_hook::consts::{SIGHUP, SIGTERM};
+        let mut ended = ended;
         if let Ok(mut signals) = signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP]) {
             std::thread::spawn(move || {
                 for signal in signals.forever() {
@@ -35,7 +36,7 @@ fn at_each_signal(mut ended: impl FnMut() + Send + 'static) {
     }
     #[cfg(not(unix))]
     {
-        at_each_signal(move || ended());
+        let _ = ctrlc::set_handler(ended);
     }
 }
 
