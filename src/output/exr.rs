@@ -40,7 +40,9 @@ pub(super) fn write(film: &Film, options: &Options, out: &mut dyn Write) -> io::
 fn write_parts(film: &Film, options: &Options, out: &mut dyn Write) -> Result<()> {
     let channels = channels_of(film);
     let headers = [header(film, &channels, options)];
-    let chunks = map_rows(film, |y| chunk(film, &channels, &headers, y));
+    let chunks = map_rows(film, |y| {
+        packed(&headers, y, samples::line(film, &channels, y))
+    });
     let chunks: Vec<Vec<u8>> = chunks.into_iter().collect::<Result<_>>()?;
     finish(&headers, &chunks, out)
 }
@@ -135,16 +137,19 @@ fn head(headers: &[Header; 1]) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Row `y`, compressed.
-fn chunk(film: &Film, channels: &[Channel], headers: &[Header; 1], y: usize) -> Result<Vec<u8>> {
+/// The block that begins with row `y` of the data window, compressed; `data` is its lines, one after another, each channel
+/// after channel.
+fn packed(headers: &[Header; 1], y: usize, data: Vec<u8>) -> Result<Vec<u8>> {
+    let [header] = headers;
+    let (size, lines) = (header.layer_size, header.compression.scan_lines_per_block());
     let block = UncompressedBlock {
         index: BlockIndex {
             layer: 0,
             pixel_position: Vec2(0, y),
-            pixel_size: Vec2(film.width as usize, 1),
+            pixel_size: Vec2(size.width(), lines.min(size.height() - y)),
             level: Vec2(0, 0),
         },
-        data: samples::line(film, channels, y),
+        data,
     };
     let mut bytes = Vec::new();
     block

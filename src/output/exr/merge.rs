@@ -7,11 +7,9 @@ mod same;
 mod tile;
 mod whole;
 
-use super::{attributes, finish};
+use super::{attributes, finish, packed};
 use crate::Error;
 use crate::film::Window;
-use exr::block::{BlockIndex, UncompressedBlock};
-use exr::error::Result as ExrResult;
 use exr::math::Vec2;
 use exr::meta::attribute::AttributeValue;
 use exr::meta::header::Header;
@@ -143,26 +141,4 @@ fn put(from: &[u8], into: &mut [u8], across: usize, header: &Header, widths: [u3
         source += narrow * bytes;
         target += wide * bytes;
     }
-}
-
-/// The block as a file has it.
-fn packed(headers: &[Header; 1], start: usize, data: Vec<u8>) -> ExrResult<Vec<u8>> {
-    let [header] = headers;
-    let lines = header.compression.scan_lines_per_block();
-    let height = lines.min(header.layer_size.height() - start);
-    let block = UncompressedBlock {
-        index: BlockIndex {
-            layer: 0,
-            pixel_position: Vec2(0, start),
-            pixel_size: Vec2(header.layer_size.width(), height),
-            level: Vec2(0, 0),
-        },
-        data,
-    };
-    let mut bytes = Vec::new();
-    block
-        .compress_to_chunk(headers)?
-        .write(&mut bytes, headers.len())?;
-    bytes.shrink_to_fit();
-    Ok(bytes)
 }
