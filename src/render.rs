@@ -208,12 +208,13 @@ impl<'a> Rendering<'a> {
     fn mean_part(&self, record: &Record, part: Rgb) -> [f32; 3] {
         let weight = self.weights.get(record.samples as usize).copied();
         let Rgb { r, g, b } = part * (1.0 / weight.unwrap_or(1.0));
-        let [whole @ .., _] = self.mean(record);
         let mut mean = [r, g, b];
-        for (part, whole) in mean.iter_mut().zip(whole) {
-            // Where a filter rings below black nothing is left to have parts.
-            if whole == 0.0 {
-                *part = 0.0;
+        if self.settings.sampling.filter.has_negative_lobes() {
+            for (part, whole) in mean.iter_mut().zip(self.mean(record)) {
+                // Where a filter rings below black nothing is left to have parts.
+                if whole == 0.0 {
+                    *part = 0.0;
+                }
             }
         }
         mean

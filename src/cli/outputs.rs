@@ -32,7 +32,7 @@ pub(super) fn paths(arguments: &RenderArguments, input: &Path, is_sequence: bool
 
 /// Whether every file that a picture becomes is there and whole.
 pub(super) fn are_whole(paths: &[PathBuf], arguments: &RenderArguments) -> bool {
-    let maps = Mapped::of(&arguments.layers.unwrap_or_default());
+    let maps = Mapped::of(&layers::asked(arguments));
     let is_whole = |path: &PathBuf| {
         let is_png = matches!(Format::of(path), Ok(Format::Png));
         let mut beside = maps.iter().filter(|_| is_png);

@@ -99,8 +99,8 @@ impl Record {
             )
     }
 
-    /// Whether something ends between this pixel and another: objects, sides, or light differ. Light by three quarters of what
-    /// counts for a round among the samples themselves: what ends is seen by less than all of them.
+    /// Whether something ends between this pixel and another: objects, sides, or light differ. Light by three quarters of
+    /// what a round may change: what ends is seen by less than all samples.
     pub(super) fn differs_from(&self, other: &Record, tolerance: u32) -> bool {
         let least = std::array::from_fn(|i| self.least[i].min(other.least[i]));
         let greatest = std::array::from_fn(|i| self.greatest[i].max(other.greatest[i]));
