@@ -1,18 +1,20 @@
 //! What can be said of pictures that follow each other, and the times at which they are taken.
 
+mod pattern;
+mod rate;
+
+pub(super) use pattern::{holds_pattern, path_of};
+
+use super::Failure;
 use super::values::whole_number;
-use super::{Failure, print};
 use clap::Args;
+use rate::Rate;
 use std::collections::HashSet;
 use std::f64::consts::TAU;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// The greatest number of a frame, and the most frames: 11 hours at 24 a second.
 const MOST_FRAMES: u32 = 1_000_000;
-/// The most digits of a frame's number in a name.
-const MOST_DIGITS: usize = 10;
 
 /// The options about sequences.
 #[derive(Args, Debug)]
@@ -127,131 +129,6 @@ fn number(text: &str) -> Option<u32> {
     (1..=MOST_FRAMES).contains(&number).then_some(number)
 }
 
-/// How many frames a second: exact, since a film of an hour at 24000/1001 is not one at 23.976.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Rate {
-    /// So many frames...
-    pub(super) frames: u32,
-    /// ...in so many seconds.
-    pub(super) seconds: u32,
-}
-
-impl Default for Rate {
-    fn default() -> Rate {
-        Rate {
-            frames: 24,
-            seconds: 1,
-        }
-    }
-}
-
-impl Rate {
-    /// The moment of a frame, in seconds: that of frame 1 is 0.
-    fn time(self, frame: u32) -> f64 {
-        let steps = u64::from(frame.saturating_sub(1)) * u64::from(self.seconds);
-        // Both are whole numbers below 2^53: the quotient is the nearest number to the true one.
-        steps as f64 / f64::from(self.frames)
-    }
-}
-
-impl FromStr for Rate {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Rate, String> {
-        let thousandths = |text: &str| match text.split_once('.') {
-            Some((whole, rest)) if (1..=3).contains(&rest.len()) => {
-                number(&format!("{whole}{rest:0<3}"))
-            }
-            Some(_) => None,
-            None => number(text)?.checked_mul(1000),
-        };
-        let rate = match text.split_once('/') {
-            Some((frames, seconds)) => number(frames).zip(number(seconds)),
-            None => thousandths(text).map(|rate| {
-                // The rates of NTSC have 1001 under the line and are written rounded.
-                let ntsc = [24, 30, 48, 60, 120].map(|whole| whole * 1000);
-                let is_near =
-                    |whole: &u32| rate != *whole && (whole * 1000 / 1001).abs_diff(rate) < 8;
-                match ntsc.into_iter().find(is_near) {
-                    Some(frames) => (frames, 1001),
-                    None => (rate, 1000),
-                }
-            }),
-        };
-        let (frames, seconds) =
-            rate.ok_or("expected frames a second, as in 25, 23.976, 29.97 or 30000/1001")?;
-        let divisor = greatest_common_divisor(frames, seconds);
-        Ok(Rate {
-            frames: frames / divisor,
-            seconds: seconds / divisor,
-        })
-    }
-}
-
-fn greatest_common_divisor(a: u32, b: u32) -> u32 {
-    if b == 0 {
-        a
-    } else {
-        greatest_common_divisor(b, a % b)
-    }
-}
-
-/// The path of a frame: its number, in at least as many digits as there are, takes the place of `####` or `%04d`.
-pub(super) fn path_of(pattern: &Path, frame: u32) -> Result<PathBuf, Failure> {
-    let of_frame = pattern.file_name().and_then(|name| {
-        let name = name.to_str()?;
-        let (place, digits) = place(name)?;
-        let (before, after) = (&name[..place.start], &name[place.end..]);
-        let is_the_only_one = self::place(after).is_none();
-        is_the_only_one.then(|| format!("{before}{frame:0digits$}{after}"))
-    });
-    let of_frame = of_frame.ok_or_else(|| {
-        let example = match (pattern.file_stem(), pattern.extension()) {
-            (Some(stem), Some(extension)) if !holds_pattern(pattern) => {
-                format!("{}.####.{}", stem.display(), extension.display())
-            }
-            _ => "shot.####.exr".to_owned(),
-        };
-        Failure::usage_or_scene(format!(
-            "{}: expected one place for the number of a frame, as in {example} or %04d",
-            print::path(pattern)
-        ))
-    })?;
-    Ok(pattern.with_file_name(of_frame))
-}
-
-/// Whether a path's name is one of frames.
-pub(super) fn holds_pattern(path: &Path) -> bool {
-    let name = path.file_name().and_then(|name| name.to_str());
-    name.is_some_and(|name| place(name).is_some())
-}
-
-/// Where in a name the number of a frame goes, and how many digits it has at least.
-fn place(name: &str) -> Option<(Range<usize>, usize)> {
-    for (start, character) in name.char_indices() {
-        let rest = &name[start..];
-        if character == '#' {
-            let length = rest.bytes().take_while(|byte| *byte == b'#').count();
-            return Some((start..start + length, length));
-        }
-        if let Some(rest) = rest.strip_prefix('%') {
-            let length = rest.bytes().take_while(u8::is_ascii_digit).count();
-            let (digits, after) = rest.split_at(length);
-            let digits = match digits {
-                "" => Some(1),
-                // Without the zero, C would put blanks.
-                padded if padded.starts_with('0') => padded.parse().ok(),
-                _ => None,
-            };
-            let digits = digits.filter(|digits| *digits <= MOST_DIGITS);
-            if let (Some(digits), true) = (digits, after.starts_with('d')) {
-                return Some((start..start + length + 2, digits));
-            }
-        }
-    }
-    None
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -292,66 +169,5 @@ mod tests {
         ] {
             assert_eq!(frames(wrong), None, "{wrong}");
         }
-    }
-
-    #[test]
-    fn rates_are_exact() {
-        for (text, frames, seconds) in [
-            ("24", 24, 1),
-            ("25", 25, 1),
-            ("23.976", 24_000, 1001),
-            ("23.98", 24_000, 1001),
-            ("29.97", 30_000, 1001),
-            ("59.94", 60_000, 1001),
-            ("12.5", 25, 2),
-            ("30000/1001", 30_000, 1001),
-        ] {
-            assert_eq!(text.parse(), Ok(Rate { frames, seconds }), "{text}");
-        }
-        for wrong in ["", "0", "-24", "1/0", "24.", ".5.", "nan", "1e3", "23.9760"] {
-            assert!(wrong.parse::<Rate>().is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn frame_1_is_the_beginning_and_frame_13_at_24_a_second_half_a_second_later() {
-        let time = |rate: &str, frame| rate.parse().map(|rate: Rate| rate.time(frame));
-        assert_eq!(time("24", 1), Ok(0.0));
-        assert_eq!(time("24", 13), Ok(0.5));
-        assert_eq!(time("23.976", 24_001), Ok(1001.0));
-        assert_eq!(time("25", 26), Ok(1.0));
-    }
-
-    #[test]
-    fn a_frames_number_takes_its_place_in_the_name() {
-        let of = |pattern: &str, frame| path_of(Path::new(pattern), frame).ok();
-        for (pattern, expected) in [
-            ("a/shot.####.exr", "a/shot.0013.exr"),
-            ("shot_%04d.png", "shot_0013.png"),
-            ("#.png", "13.png"),
-            ("%d.png", "13.png"),
-            ("a#b/100%_##.png", "a#b/100%_13.png"),
-        ] {
-            assert_eq!(of(pattern, 13), Some(expected.into()), "{pattern}");
-        }
-        assert_eq!(of("##.png", 1000), Some("1000.png".into()));
-        for wrong in [
-            "shot.exr",
-            "#.#.exr",
-            "a_%04d_#.exr",
-            "%4d.png",
-            "%099999999999d.png",
-            "..",
-        ] {
-            assert_eq!(of(wrong, 1), None, "{wrong}");
-        }
-        let problem = path_of(Path::new("b/shot.exr"), 1).err();
-        let problem = problem.map(|failure| failure.error.to_string());
-        assert_eq!(
-            problem.as_deref(),
-            Some(
-                "b/shot.exr: expected one place for the number of a frame, as in shot.####.exr or %04d"
-            )
-        );
     }
 }
